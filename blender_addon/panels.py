@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel, once in the World properties and once in the sidebar of the 3D view."""
+
+import bpy
+
+from . import operators, properties, scene_probe
+
+
+def draw(layout, scene):
+    """Draw everything that the user sets, in the order in which one thinks of it."""
+    settings = scene.skyprobe
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    _draw_run(layout, scene, settings)
+    for name, title, section in SECTIONS:
+        header, body = layout.panel(f"skyprobe_{name}")
+        header.label(text=title)
+        if body:
+            section(body, settings)
+
+
+def _draw_run(layout, scene, settings):
+    job = operators.running_job
+    if job is not None:
+        layout.progress(factor=job.fraction, text=f"{job.stage} {job.fraction:.0%} (Esc cancels)")
+        return
+    row = layout.row(align=True)
+    row.operator(operators.SKYPROBE_OT_render.bl_idname, icon="LIGHT_SUN")
+    row.operator(operators.SKYPROBE_OT_remove.bl_idname, text="", icon="X")
+    if scene_probe.is_lit(scene):
+        layout.label(
+            text=f"Sun {settings.sun_altitude_deg:.2f}\N{DEGREE SIGN} high, azimuth {settings.sun_azimuth_deg:.2f}\N{DEGREE SIGN}"
+        )
+
+
+def _draw_place(layout, settings):
+    column = layout.column(align=True)
+    column.prop(settings, "latitude")
+    column.prop(settings, "longitude")
+    layout.prop(settings, "elevation_m")
+    layout.prop(settings, "north")
+
+
+def _draw_time(layout, settings):
+    column = layout.column(align=True)
+    column.prop(settings, "year")
+    column.prop(settings, "month")
+    column.prop(settings, "day")
+    layout.prop(settings, "hour", slider=True, text="Time {:02d}:{:02d}:{:02d}".format(*properties.clock(settings)))
+    layout.prop(settings, "zone_mode")
+    if settings.zone_mode == "NAME":
+        layout.prop(settings, "zone_name")
+    elif settings.zone_mode == "OFFSET":
+        layout.prop(settings, "utc_offset")
+
+
+def _draw_air(layout, settings):
+    layout.prop(settings, "preset")
+    layout.prop(settings, "aerosol")
+    layout.prop(settings, "haze")
+    if settings.haze != properties.OF_PRESET:
+        layout.prop(settings, settings.haze)
+    row = layout.row(heading="Ozone (DU)")
+    row.prop(settings, "use_ozone", text="")
+    value = row.row()
+    value.active = settings.use_ozone
+    value.prop(settings, "ozone_du", text="")
+    layout.prop(settings, "ground")
+
+
+def _draw_probe(layout, settings):
+    layout.prop(settings, "width")
+    layout.prop(settings, "quality")
+    layout.prop(settings, "sun_mode")
+    layout.prop(settings, "storage")
+    if settings.storage == "FILE":
+        layout.prop(settings, "directory")
+
+
+SECTIONS = (
+    ("place", "Place", _draw_place),
+    ("time", "Time", _draw_time),
+    ("air", "Air", _draw_air),
+    ("probe", "Probe", _draw_probe),
+)
+
+
+class SKYPROBE_PT_world(bpy.types.Panel):
+    bl_label = "Skyprobe"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "world"
+
+    def draw(self, context):
+        draw(self.layout, context.scene)
+
+
+class SKYPROBE_PT_sidebar(bpy.types.Panel):
+    bl_label = "Skyprobe"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Sky"
+
+    def draw(self, context):
+        draw(self.layout, context.scene)
+
+
+CLASSES = (SKYPROBE_PT_world, SKYPROBE_PT_sidebar)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

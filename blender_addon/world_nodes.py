@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The probe in the world's nodes: Texture Coordinate, Mapping (north), Environment Texture, Background, and nothing hidden.
+
+The nodes go into a copy of the world that the scene had: the copy keeps its volume, mist and other settings, the old world stays
+as it was for other scenes and comes back unchanged. All is plain Blender data, so a file shows its sky without the add-on.
+"""
+
+import math
+
+import bpy
+
+from . import compat
+
+# Far above any sky and far below 65504, the largest value in EEVEE's copy of the world.
+EEVEE_THRESHOLD = 1000.0
+
+COORDINATE, MAPPING, ENVIRONMENT, BACKGROUND = "Skyprobe Direction", "Skyprobe North", "Skyprobe Environment", "Skyprobe Background"
+
+
+def load_image(path, pack):
+    """Load the probe at `path` as a new image, inside the .blend if `pack`.
+
+    Always a new datablock: Cycles keeps the old pixels of an image that changes in place.
+    """
+    image = bpy.data.images.load(path, check_existing=False)
+    image.colorspace_settings.name = "Linear Rec.709"
+    image.alpha_mode = "NONE"
+    if pack:
+        image.pack()
+        # The temporary file goes; this is where "Unpack" would put the picture.
+        image.filepath_raw = "//" + bpy.path.basename(path)
+    elif bpy.data.filepath:
+        image.filepath_raw = bpy.path.relpath(path)
+    return image
+
+
+def new_world(old):
+    """Return a world that can hold the probe: a copy of `old`, or an empty one for None."""
+    world = old.copy() if old else bpy.data.worlds.new("World")
+    world.name = "Skyprobe"
+    compat.use_world_nodes(world)
+    return world
+
+
+def show(world, image, north):
+    """Make `world` emit `image`, north turned by `north` [radians clockwise from +Y, seen from above]."""
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    output = world.node_tree.get_output_node("ALL") or nodes.new("ShaderNodeOutputWorld")
+    x, y = output.location
+    coordinate = _node(nodes, COORDINATE, "ShaderNodeTexCoord", (x - 900.0, y - 300.0))
+    mapping = _node(nodes, MAPPING, "ShaderNodeMapping", (x - 700.0, y - 300.0))
+    environment = _node(nodes, ENVIRONMENT, "ShaderNodeTexEnvironment", (x - 500.0, y - 300.0))
+    background = _node(nodes, BACKGROUND, "ShaderNodeBackground", (x - 200.0, y - 300.0))
+    environment.image = image
+    environment.projection = "EQUIRECTANGULAR"
+    links.new(coordinate.outputs["Generated"], mapping.inputs["Vector"])
+    links.new(mapping.outputs["Vector"], environment.inputs["Vector"])
+    links.new(environment.outputs["Color"], background.inputs["Color"])
+    links.new(background.outputs["Background"], output.inputs["Surface"])
+    set_north(world, north)
+
+
+def set_north(world, north):
+    """Turn the map. A direction of the scene is turned back, counter-clockwise, before it is looked up."""
+    world.node_tree.nodes[MAPPING].inputs["Rotation"].default_value = (0.0, 0.0, north)
+
+
+def set_sun_in_map(world, result):
+    """Tell both engines that the map holds the Sun's disc of the jobs.ProbeResult `result`."""
+    # Cycles finds the disc reliably when its importance map is twice as wide as the probe.
+    compat.set_importance_map(world, 2 * result.request.width)
+    # EEVEE makes a sun of what is brighter than the threshold. A tenth of the mean over the disc, or over the pixel that
+    # holds it, takes all of a dim disc and none of the sky; a bright one EEVEE has clipped to half precision by then.
+    radius = math.radians(result.sun_diameter_deg) / 2.0
+    pixel = (2.0 * math.pi / result.request.width) ** 2 * math.cos(math.radians(result.sun_altitude_deg))
+    world.sun_threshold = min(0.1 * max(0.0, *result.sun_irradiance) / max(math.pi * radius**2, pixel), EEVEE_THRESHOLD)
+    world.sun_angle = 2.0 * radius
+
+
+def set_sun_as_lamp(world):
+    """Tell both engines that the map holds no Sun: EEVEE must not make a second one of a bright sky."""
+    compat.set_importance_map(world, None)
+    world.sun_threshold = 0.0
+
+
+def _node(nodes, name, kind, location):
+    node = nodes.get(name)
+    if node is None:
+        node = nodes.new(kind)
+        node.name = node.label = name
+        node.location = location
+    return node

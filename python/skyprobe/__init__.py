@@ -1,0 +1,60 @@
+"""The light of the sky for a place, a time and a state of the air, as a high dynamic range light probe.
+
+The state of the air is an :class:`Atmosphere`; it is solved once. A :class:`Sky` is that air seen from a place at a time, and gives
+the light that arrives there: spectral radiance in any direction, irradiance, illuminance, or a whole :class:`Probe` for a renderer.
+Changing the place or the time never solves again, so share one ``Atmosphere`` between many skies.
+
+>>> import skyprobe as sp
+>>> air = sp.Atmosphere(preset="clear", turbidity=3.0, ground="grass")
+>>> sky = sp.Sky(latitude=55.71, longitude=13.19, elevation_m=20, time="2005-06-21T13:00:00+02:00", atmosphere=air)
+>>> probe = sky.render(width=2048)
+>>> probe.pixels.shape
+(1024, 2048, 3)
+>>> probe.save("sky.exr")
+
+Conventions
+-----------
+- Directions are unit vectors, x = east, y = north, z = up. Azimuth in degrees from north through east, altitude in degrees
+  above the horizon. Altitudes are geometric (airless) unless the name says ``apparent``.
+- Wavelengths in nm; spectral radiance in W m-2 sr-1 nm-1; irradiance in W m-2 nm-1; illuminance in lx (CIE 1931 observer).
+- Latitude-longitude probes: row 0 at the zenith, column at 1/4 + azimuth / 360 of the width (north at 1/4, east in the centre).
+- Long work releases the interpreter. ``progress(stage, fraction)`` is called on the thread that asked for the work; returning
+  ``False`` from it raises :class:`Cancelled`.
+
+Errors
+------
+:class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
+``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
+"""
+
+from ._core import (
+    Atmosphere,
+    Body,
+    Cancelled,
+    Component,
+    DataError,
+    Illuminance,
+    InputError,
+    Irradiance,
+    Phase,
+    Probe,
+    Sky,
+    SunEvents,
+    __version__,
+)
+
+__all__ = [
+    "Atmosphere",
+    "Body",
+    "Cancelled",
+    "Component",
+    "DataError",
+    "Illuminance",
+    "InputError",
+    "Irradiance",
+    "Phase",
+    "Probe",
+    "Sky",
+    "SunEvents",
+    "__version__",
+]

@@ -1,0 +1,576 @@
+"""The compiled part of skyprobe."""
+
+import datetime
+import os
+from collections.abc import Callable, Sequence
+from typing import Literal, TypeAlias, final
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+_Quality: TypeAlias = Literal["draft", "standard", "high", "reference"]
+_Preset: TypeAlias = Literal["clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "thesis"]
+_Aerosol: TypeAlias = Literal[
+    "none",
+    "continental_clean",
+    "continental_average",
+    "continental_polluted",
+    "urban",
+    "maritime_clean",
+    "desert",
+    "antarctic",
+    "thesis",
+]
+_Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
+_Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
+_ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
+_Progress: TypeAlias = Callable[[str, float], bool | None]
+
+__all__ = [
+    "Atmosphere",
+    "Body",
+    "Cancelled",
+    "Component",
+    "DataError",
+    "Illuminance",
+    "InputError",
+    "Irradiance",
+    "Phase",
+    "Probe",
+    "Sky",
+    "SunEvents",
+    "__version__",
+    "run_command_line",
+]
+
+__version__: str
+
+class InputError(ValueError):
+    """A value that cannot be used. The message names the parameter, the value given and the allowed range; nothing was computed."""
+
+class DataError(RuntimeError):
+    """A table or file whose content cannot be used."""
+
+class Cancelled(Exception):
+    """The progress callback returned False; nothing was left behind."""
+
+@final
+class Phase:
+    """Where a scatterer sends the light: a phase function, normalised to 4 pi over the sphere."""
+
+    @staticmethod
+    def rayleigh(depolarisation: ArrayLike | None = None) -> Phase:
+        """Molecules.
+
+        Parameters
+        ----------
+        depolarisation
+            Depolarisation ratio of natural light, 0 to 1: one for each wavelength, or a number. Default 0.
+        """
+
+    @staticmethod
+    def henyey_greenstein(asymmetry: float) -> Phase:
+        """The function of Henyey and Greenstein (1941) with an asymmetry from -0.99 to 0.99."""
+
+    @staticmethod
+    def cornette_shanks(asymmetry: float) -> Phase:
+        """The function of Cornette and Shanks (1992) with the parameter g from -0.99 to 0.99."""
+
+@final
+class Component:
+    """One kind of particle or gas of an explicit profile.
+
+    Parameters
+    ----------
+    scattering, absorption
+        Coefficients, shape (Z, W): altitudes, wavelengths. [1/km]
+    phase
+        Phase function; None for a component that only absorbs.
+    name
+        Name for messages.
+    """
+
+    def __new__(
+        cls, *, scattering: ArrayLike, absorption: ArrayLike, phase: Phase | None, name: str | None = None
+    ) -> Component: ...
+
+@final
+class Atmosphere:
+    """The state of the air. It is solved on first use, once, and can be shared by any number of skies and threads.
+
+    What is left out comes from the preset. At most one of ``aod550``, ``turbidity`` and ``visibility_km`` is given.
+
+    Parameters
+    ----------
+    preset
+        Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic" or "thesis".
+    aerosol
+        Kind of haze: "none", "continental_clean", "continental_average", "continental_polluted", "urban", "maritime_clean",
+        "desert", "antarctic" or "thesis".
+    aod550
+        Vertical optical depth of the haze at 550 nm, 0 to 10.
+    turbidity
+        Optical depth of haze and molecules over that of the molecules at 550 nm, 1 (pure air) to 64.
+    visibility_km
+        Horizontal visibility at the ground, from 1. [km]
+    ozone_du
+        Ozone column, 0 to 1000. [Dobson units]
+    ground
+        "grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt", or one albedo from 0 to 1.
+    angstrom_exponent
+        Replaces the spectral slope of the haze's extinction, -1 to 4.
+    single_scattering_albedo
+        Replaces the haze's single scattering albedo, 0 to 1.
+    asymmetry
+        Replaces the haze's asymmetry parameter, -0.99 to 0.99.
+    aerosol_scale_height_km
+        Replaces the haze's scale height, 0.1 to 20. [km]
+    standard_atmosphere
+        Profile of temperature and density, such as "us_standard_1976" or "tropical".
+    surface_pressure_hpa
+        Pressure at the ground, 100 to 1100. [hPa]
+    quality
+        "draft", "standard", "high" or "reference".
+    polarisation
+        Whether polarisation is followed; must be False in this version.
+    """
+
+    def __new__(
+        cls,
+        *,
+        preset: _Preset = "clear",
+        aerosol: _Aerosol | None = None,
+        aod550: float | None = None,
+        turbidity: float | None = None,
+        visibility_km: float | None = None,
+        ozone_du: float | None = None,
+        ground: _Ground | float | None = None,
+        angstrom_exponent: float | None = None,
+        single_scattering_albedo: float | None = None,
+        asymmetry: float | None = None,
+        aerosol_scale_height_km: float | None = None,
+        standard_atmosphere: str | None = None,
+        surface_pressure_hpa: float | None = None,
+        quality: _Quality = "standard",
+        polarisation: bool = False,
+    ) -> Atmosphere: ...
+    @staticmethod
+    def from_profile(
+        altitudes_km: ArrayLike,
+        wavelengths_nm: ArrayLike,
+        components: Sequence[Component],
+        *,
+        solar_irradiance: ArrayLike,
+        ground_albedo: ArrayLike | None = None,
+        planet_radius_km: float = 6371.0,
+        sun_angular_radius_deg: float = 0.2664,
+        quality: _Quality = "standard",
+        polarisation: bool = False,
+    ) -> Atmosphere:
+        """An air given in full: another code's, or another planet's. Coefficients are linear between the altitudes.
+
+        Parameters
+        ----------
+        altitudes_km
+            Ascending from 0, shape (Z,); the last is the top of the air. [km]
+        wavelengths_nm
+            Ascending, shape (W,). [nm]
+        components
+            What the air is made of.
+        solar_irradiance
+            At the top of the air at 1 au, shape (W,) or a number. [W m-2 nm-1]
+        ground_albedo
+            Lambertian, 0 to 1, shape (W,) or a number. Default 0.
+        planet_radius_km
+            Radius of the ground. [km]
+        sun_angular_radius_deg
+            Angular radius of the Sun's disc. [degrees]
+        quality
+            "draft", "standard", "high" or "reference".
+        polarisation
+            Whether polarisation is followed; must be False in this version.
+        """
+
+    def solve(self, progress: _Progress | None = None) -> None:
+        """Solve the light now instead of on first use. Solving twice costs nothing."""
+
+    @property
+    def quality(self) -> _Quality:
+        """Name of the quality level."""
+
+    @property
+    def altitudes_km(self) -> NDArray[numpy.float64]:
+        """Altitudes of the optical profile, shape (Z,). [km]"""
+
+    @property
+    def wavelengths_nm(self) -> NDArray[numpy.float64]:
+        """Wavelengths of the optical profile, shape (W,). [nm]"""
+
+@final
+class Body:
+    """A body as it stands in the sky."""
+
+    @property
+    def name(self) -> str:
+        """English name, such as "Sun"."""
+
+    @property
+    def altitude_deg(self) -> float:
+        """Airless altitude of the centre. [degrees]"""
+
+    @property
+    def azimuth_deg(self) -> float:
+        """Azimuth from north through east. [degrees]"""
+
+    @property
+    def apparent_altitude_deg(self) -> float:
+        """Altitude of the centre as refraction shows it. [degrees]"""
+
+    @property
+    def distance_au(self) -> float:
+        """Distance from the observer. [au]"""
+
+    @property
+    def angular_diameter_deg(self) -> float:
+        """Angular diameter without refraction. [degrees]"""
+
+    @property
+    def magnitude(self) -> float | None:
+        """Visual magnitude outside the air, where it is known."""
+
+    @property
+    def phase_angle_deg(self) -> float | None:
+        """Angle at the body between Sun and observer, of bodies that shine by sunlight. [degrees]"""
+
+    @property
+    def illuminated_fraction(self) -> float | None:
+        """Fraction of the disc that is lit, of bodies that shine by sunlight."""
+
+    @property
+    def direction(self) -> tuple[float, float, float]:
+        """Unit vector (east, north, up) to the airless position."""
+
+    @property
+    def apparent_direction(self) -> tuple[float, float, float]:
+        """Unit vector (east, north, up) to the refracted position."""
+
+@final
+class SunEvents:
+    """The Sun's day at a place, in the zone of the sky's time. An event that does not happen is None.
+
+    Sunrise and sunset are those of almanacs: the Sun's centre at -50 arcminutes, a level horizon.
+    """
+
+    @property
+    def astronomical_dawn(self) -> datetime.datetime | None:
+        """The Sun's centre rises through -18 degrees."""
+
+    @property
+    def nautical_dawn(self) -> datetime.datetime | None:
+        """The Sun's centre rises through -12 degrees."""
+
+    @property
+    def civil_dawn(self) -> datetime.datetime | None:
+        """The Sun's centre rises through -6 degrees."""
+
+    @property
+    def sunrise(self) -> datetime.datetime | None:
+        """The Sun's upper limb appears."""
+
+    @property
+    def solar_noon(self) -> datetime.datetime:
+        """The Sun is in the meridian."""
+
+    @property
+    def noon_altitude_deg(self) -> float:
+        """Airless altitude at solar noon. [degrees]"""
+
+    @property
+    def sunset(self) -> datetime.datetime | None:
+        """The Sun's upper limb disappears."""
+
+    @property
+    def civil_dusk(self) -> datetime.datetime | None:
+        """The Sun's centre sinks through -6 degrees."""
+
+    @property
+    def nautical_dusk(self) -> datetime.datetime | None:
+        """The Sun's centre sinks through -12 degrees."""
+
+    @property
+    def astronomical_dusk(self) -> datetime.datetime | None:
+        """The Sun's centre sinks through -18 degrees."""
+
+@final
+class Irradiance:
+    """Spectral irradiance, each of shape (W,). [W m-2 nm-1]"""
+
+    @property
+    def direct_normal(self) -> NDArray[numpy.float64]:
+        """Of the Sun's disc, on a plane that faces it. [W m-2 nm-1]"""
+
+    @property
+    def direct_horizontal(self) -> NDArray[numpy.float64]:
+        """Of the Sun's disc, on the horizontal plane. [W m-2 nm-1]"""
+
+    @property
+    def diffuse_horizontal(self) -> NDArray[numpy.float64]:
+        """Of the sky without the disc, on the horizontal plane. [W m-2 nm-1]"""
+
+@final
+class Illuminance:
+    """Illuminance, CIE 1931 observer. [lx]"""
+
+    @property
+    def direct_normal_lx(self) -> float:
+        """Of the Sun's disc, on a plane that faces it. [lx]"""
+
+    @property
+    def direct_horizontal_lx(self) -> float:
+        """Of the Sun's disc, on the horizontal plane. [lx]"""
+
+    @property
+    def diffuse_horizontal_lx(self) -> float:
+        """Of the sky without the disc, on the horizontal plane. [lx]"""
+
+    @property
+    def global_horizontal_lx(self) -> float:
+        """Of disc and sky, on the horizontal plane. [lx]"""
+
+@final
+class Sky:
+    """An atmosphere seen from a place at a time.
+
+    Parameters
+    ----------
+    latitude
+        Geodetic, north positive, -90 to 90. [degrees]
+    longitude
+        East positive, -180 to 180. [degrees]
+    time
+        ISO 8601 text, or an aware ``datetime``. A text without offset is local time in ``zone``.
+    atmosphere
+        The air.
+    elevation_m
+        Height of the observer above the sea, -500 to 60000. [m]
+    zone
+        IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
+    sun_model
+        By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+    """
+
+    def __new__(
+        cls,
+        *,
+        latitude: float,
+        longitude: float,
+        time: str | datetime.datetime,
+        atmosphere: Atmosphere,
+        elevation_m: float = 0.0,
+        zone: str | None = None,
+        sun_model: Literal["iau", "thesis"] = "iau",
+    ) -> Sky: ...
+    @staticmethod
+    def with_sun(*, altitude_deg: float, azimuth_deg: float, atmosphere: Atmosphere, elevation_m: float = 0.0) -> Sky:
+        """The sky under a Sun that is put, without place and time.
+
+        Parameters
+        ----------
+        altitude_deg
+            Airless, -90 to 90. [degrees]
+        azimuth_deg
+            From north through east. [degrees]
+        atmosphere
+            The air.
+        elevation_m
+            Height of the observer above the sea, -500 to 60000. [m]
+        """
+
+    @property
+    def latitude(self) -> float | None:
+        """Latitude of the place. [degrees]"""
+
+    @property
+    def longitude(self) -> float | None:
+        """Longitude of the place. [degrees]"""
+
+    @property
+    def elevation_m(self) -> float:
+        """Height of the observer above the sea. [m]"""
+
+    @property
+    def time(self) -> datetime.datetime | None:
+        """The time, with its offset."""
+
+    @property
+    def zone(self) -> str | None:
+        """IANA zone of the time; None for a fixed offset."""
+
+    @property
+    def atmosphere(self) -> Atmosphere:
+        """The air."""
+
+    @property
+    def sun(self) -> Body:
+        """The Sun."""
+
+    def bodies(self) -> list[Body]:
+        """All bodies that light this sky."""
+
+    def sun_events(self) -> SunEvents:
+        """Sunrise, sunset, twilights and noon on the local date of this sky's time."""
+
+    def spectral_radiance(
+        self, directions: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
+    ) -> NDArray[numpy.float64]:
+        """Spectral radiance of sky and ground without the Sun's disc, shape (N, W). [W m-2 sr-1 nm-1]
+
+        Parameters
+        ----------
+        directions
+            Unit vectors (east, north, up) that one looks along, shape (N, 3).
+        wavelengths_nm
+            Shape (W,), within the atmosphere's wavelengths. [nm]
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
+    def irradiance(self, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None) -> Irradiance:
+        """Spectral irradiance of Sun and sky. [W m-2 nm-1]
+
+        Parameters
+        ----------
+        wavelengths_nm
+            Shape (W,), within the atmosphere's wavelengths. [nm]
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
+    def illuminance(self, *, progress: _Progress | None = None) -> Illuminance:
+        """Illuminance of Sun and sky. [lx]"""
+
+    def sun_irradiance_rgb(
+        self,
+        *,
+        scale: _Scale = "blender",
+        color_space: _ColorSpace = "lin_rec709",
+        progress: _Progress | None = None,
+    ) -> tuple[float, float, float]:
+        """Irradiance of the Sun's disc on a plane that faces it, in the units of a probe with this scale and colour space times sr."""
+
+    def render(
+        self,
+        *,
+        width: int = 2048,
+        projection: Literal["latlong", "fisheye"] = "latlong",
+        rows: Literal["centre", "corner"] = "centre",
+        extent: Literal["full", "upper"] = "full",
+        ground: Literal["on", "off", "mirrored"] = "on",
+        sun_disc: bool = True,
+        scale: _Scale = "blender",
+        color_space: _ColorSpace = "lin_rec709",
+        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        progress: _Progress | None = None,
+    ) -> Probe:
+        """An image of the light from all directions.
+
+        Parameters
+        ----------
+        width
+            Even, 64 to 16384; the height follows. [pixels]
+        projection
+            "latlong", or "fisheye" with the zenith in the centre.
+        rows
+            "centre" (Blender and most viewers), or "corner" for Mitsuba: first and last row on the poles.
+        extent
+            The "full" sphere or the "upper" half.
+        ground
+            What is seen below the horizon: "on", "off" (black) or "mirrored".
+        sun_disc
+            Whether the Sun's disc is drawn, with its exact energy at every width.
+        scale
+            What 1.0 means: "blender" (luminance / 683), "mitsuba" (mean W m-2 sr-1 nm-1) or "luminance" (cd m-2).
+        color_space
+            "lin_rec709", "acescg", "lin_rec2020" or "xyz"; always linear.
+        gamut
+            What happens to a colour outside the space: "desaturate" towards the grey of its luminance, "clip" negative values, or
+            "keep" them.
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
+@final
+class Probe:
+    """A rendered image of the light from all directions."""
+
+    @property
+    def pixels(self) -> NDArray[numpy.float32]:
+        """The pixels, linear, shape (H, W, 3): always the same array, not a copy. What is written to it is what ``save`` saves."""
+
+    @property
+    def width(self) -> int:
+        """Width. [pixels]"""
+
+    @property
+    def height(self) -> int:
+        """Height. [pixels]"""
+
+    @property
+    def projection(self) -> str:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def rows(self) -> str:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def extent(self) -> str:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def ground(self) -> str:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def sun_disc(self) -> bool:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def scale(self) -> str:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def color_space(self) -> str:
+        """As asked for in ``Sky.render``."""
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        half: bool | Literal["off", "refuse", "scale"] | None = None,
+        exposure_stops: float = 0.0,
+    ) -> None:
+        """Write the probe; the file appears whole or not at all.
+
+        Parameters
+        ----------
+        path
+            Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
+        half
+            EXR with half floats, which end at 65504. True or "refuse": a brighter pixel, such as the Sun's disc, is an InputError;
+            "scale": all pixels are multiplied by a power of two, which the header states.
+        exposure_stops
+            Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
+        """
+
+    def irradiance(self, normal: ArrayLike | None = None) -> tuple[float, float, float]:
+        """Irradiance of a plane: the integral of pixels times cosine, in the probe's units times sr.
+
+        Parameters
+        ----------
+        normal
+            Vector (east, north, up) that the plane faces; up by default.
+        """
+
+def run_command_line(arguments: Sequence[str]) -> int:
+    """Run the command line tool with `arguments`, the first being the program's name, and return its exit code."""

@@ -1,0 +1,24 @@
+//! The state of the air as optical properties: scattering, absorption and phase functions against altitude and wavelength.
+//!
+//! [`AirParameters`] is what a user says; [`AirParameters::resolve`] fills in the preset and turns every way to say how much haze there
+//! is into an optical depth; [`AirParameters::optical_profile`] is all that the light transport knows.
+
+pub mod aerosol;
+pub mod ground;
+pub mod molecules;
+mod names;
+pub mod optical_profile;
+pub mod ozone;
+pub mod parameters;
+pub mod phase;
+pub mod preset;
+pub mod profile;
+pub mod standard_atmosphere;
+
+pub use aerosol::AerosolType;
+pub use ground::{Ground, Surface};
+pub use optical_profile::{Component, OpticalProfile};
+pub use parameters::{Air, AirParameters};
+pub use phase::Phase;
+pub use preset::Preset;
+pub use standard_atmosphere::StandardAtmosphere;

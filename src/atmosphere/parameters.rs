@@ -1,0 +1,272 @@
+//! What a user says about the air, the same keys in Rust, Python, JSON and on the command line, and what follows from it.
+//!
+//! The amount of aerosol can be said in three ways, tau being vertical optical depths at 550 nm above the ground:
+//!
+//! - `aod550`: tau_aerosol itself;
+//! - `turbidity` T = (tau_aerosol + tau_molecules) / tau_molecules (thesis, section 5.1; 1 is pure air, 64 light fog);
+//! - `visibility_km` V = 3.912 / (beta_aerosol + beta_molecules) with the extinction beta [km-1] at the ground
+//!   (Koschmieder 1924, contrast threshold 2 %).
+
+use super::aerosol::AerosolType;
+use super::ground::Ground;
+use super::molecules;
+use super::optical_profile::OpticalProfile;
+use super::preset::{Amount, Preset};
+use super::profile;
+use super::standard_atmosphere::StandardAtmosphere;
+use crate::error::{Error, Result, check_range};
+use serde::{Deserialize, Serialize};
+
+/// -ln 0.02: how many optical depths away a black object vanishes against the horizon.
+const KOSCHMIEDER: f64 = 3.912;
+
+/// Shortest visibility that is accepted [km].
+const SHORTEST_VISIBILITY_KM: f64 = 1.0;
+
+/// The state of the air as the user gives it. Everything but the preset may be left out: the preset fills it in.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AirParameters {
+    /// Where to start from.
+    pub preset: Preset,
+    /// Kind of aerosol.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aerosol: Option<AerosolType>,
+    /// Vertical optical depth of the aerosol at 550 nm (0 to 10). At most one of this, `turbidity` and `visibility_km`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aod550: Option<f64>,
+    /// Optical depth of aerosol and molecules over that of the molecules at 550 nm (1 to 64).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turbidity: Option<f64>,
+    /// Horizontal visibility at the ground [km], from 1 to that of pure air (about 340).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visibility_km: Option<f64>,
+    /// Replaces the aerosol's spectral extinction by (wavelength / 550 nm)^-exponent (-1 to 4).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angstrom_exponent: Option<f64>,
+    /// Replaces the aerosol's single scattering albedo at all wavelengths (0 to 1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub single_scattering_albedo: Option<f64>,
+    /// Replaces the aerosol's asymmetry parameter (-0.99 to 0.99).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asymmetry: Option<f64>,
+    /// Replaces the aerosol's scale height [km] (0.1 to 20).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aerosol_scale_height_km: Option<f64>,
+    /// Ozone column [Dobson units] (0 to 1000).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ozone_du: Option<f64>,
+    /// Temperature and density profile, and the shape of the ozone profile.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub standard_atmosphere: Option<StandardAtmosphere>,
+    /// Pressure at the ground [hPa] (100 to 1100); scales the molecules at all altitudes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_pressure_hpa: Option<f64>,
+    /// The ground: a preset or one albedo (0 to 1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground: Option<Ground>,
+}
+
+/// The state of the air with nothing left open.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Air {
+    /// Kind of aerosol.
+    pub aerosol: AerosolType,
+    /// Vertical optical depth of the aerosol at 550 nm.
+    pub aod550: f64,
+    /// The same as turbidity.
+    pub turbidity: f64,
+    /// The same as visibility at the ground [km].
+    pub visibility_km: f64,
+    /// Exponent that replaces the aerosol's own spectral extinction.
+    pub angstrom_exponent: Option<f64>,
+    /// Albedo that replaces the aerosol's own.
+    pub single_scattering_albedo: Option<f64>,
+    /// Asymmetry parameter, by default that of the aerosol at 550 nm.
+    pub asymmetry: f64,
+    /// Scale height of the aerosol [km].
+    pub aerosol_scale_height_km: f64,
+    /// Ozone column [Dobson units].
+    pub ozone_du: f64,
+    /// Temperature and density profile.
+    pub standard_atmosphere: StandardAtmosphere,
+    /// Pressure at the ground [hPa].
+    pub surface_pressure_hpa: f64,
+    /// The ground.
+    pub ground: Ground,
+}
+
+impl AirParameters {
+    /// Checks every value that is given.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the first parameter that cannot be used.
+    pub fn validate(&self) -> Result<()> {
+        self.resolve().map(|_| ())
+    }
+
+    /// Fills in the preset and expresses the amount of aerosol in all three ways.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the first parameter that cannot be used.
+    pub fn resolve(&self) -> Result<Air> {
+        for (name, value, low, high, unit) in [
+            ("aod550", self.aod550, 0.0, 10.0, ""),
+            ("turbidity", self.turbidity, 1.0, 64.0, ""),
+            ("angstrom_exponent", self.angstrom_exponent, -1.0, 4.0, ""),
+            ("single_scattering_albedo", self.single_scattering_albedo, 0.0, 1.0, ""),
+            ("asymmetry", self.asymmetry, -0.99, 0.99, ""),
+            ("aerosol_scale_height_km", self.aerosol_scale_height_km, 0.1, 20.0, "km"),
+            ("ozone_du", self.ozone_du, 0.0, 1000.0, "Dobson units"),
+            ("surface_pressure_hpa", self.surface_pressure_hpa, 100.0, 1100.0, "hPa"),
+        ] {
+            value.map_or(Ok(0.0), |value| check_range(name, value, low, high, unit))?;
+        }
+        self.ground.map_or(Ok(()), Ground::validate)?;
+
+        let defaults = self.preset.defaults();
+        let standard_atmosphere = self.standard_atmosphere.unwrap_or(defaults.standard_atmosphere);
+        let standard_pressure_hpa = standard_atmosphere.pressure_pa(0.0) / 100.0;
+        let surface_pressure_hpa = self.surface_pressure_hpa.unwrap_or(standard_pressure_hpa);
+        let aerosol = self.aerosol.unwrap_or(defaults.aerosol);
+        let scale_height = self.aerosol_scale_height_km.unwrap_or(aerosol.scale_height_km());
+
+        let pressure_ratio = surface_pressure_hpa / standard_pressure_hpa;
+        let cross_section = molecules::cross_section_m2(550.0) * pressure_ratio;
+        let molecules_depth = cross_section * profile::air_column_per_m2(standard_atmosphere);
+        let molecules_per_km = cross_section * standard_atmosphere.number_density_per_m3(0.0) * 1000.0;
+        let aod550 = match self.amount(molecules_per_km)? {
+            None if aerosol == AerosolType::None => 0.0,
+            given => {
+                let depth = match given.unwrap_or(defaults.amount) {
+                    Amount::OpticalDepth(depth) => depth,
+                    Amount::Turbidity(turbidity) => (turbidity - 1.0) * molecules_depth,
+                    Amount::VisibilityKm(visibility) => (KOSCHMIEDER / visibility - molecules_per_km).max(0.0) * scale_height,
+                };
+                if aerosol == AerosolType::None && depth > 1e-12 {
+                    let kinds: Vec<&str> = AerosolType::ALL[1..].iter().map(|kind| kind.name()).collect();
+                    let allowed = format!("one of {} when an amount of aerosol is given", kinds.join(", "));
+                    return Err(Error::input("aerosol", "\"none\"", allowed));
+                }
+                depth
+            }
+        };
+        Ok(Air {
+            aerosol,
+            aod550,
+            turbidity: 1.0 + aod550 / molecules_depth,
+            visibility_km: KOSCHMIEDER / (molecules_per_km + aod550 / scale_height),
+            angstrom_exponent: self.angstrom_exponent,
+            single_scattering_albedo: self.single_scattering_albedo,
+            asymmetry: self.asymmetry.unwrap_or(aerosol.optics(550.0).asymmetry),
+            aerosol_scale_height_km: scale_height,
+            ozone_du: self.ozone_du.unwrap_or(defaults.ozone_du),
+            standard_atmosphere,
+            surface_pressure_hpa,
+            ground: self.ground.unwrap_or(Ground::Surface(defaults.ground)),
+        })
+    }
+
+    /// The optical properties of this air at `wavelengths_nm` (ascending, 300 to 1000 nm), up to [`profile::TOP_KM`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the first parameter that cannot be used.
+    pub fn optical_profile(&self, wavelengths_nm: &[f64]) -> Result<OpticalProfile> {
+        profile::optical_profile(&self.resolve()?, wavelengths_nm)
+    }
+
+    /// The amount of aerosol that is given, if one is. `molecules_per_km` is the molecules' extinction at the ground.
+    fn amount(&self, molecules_per_km: f64) -> Result<Option<Amount>> {
+        let given = [("aod550", self.aod550), ("turbidity", self.turbidity), ("visibility_km", self.visibility_km)];
+        let mut names = given.iter().filter_map(|&(name, value)| value.map(|value| (name, value)));
+        if let (Some((first, _)), Some((second, value))) = (names.next(), names.next()) {
+            let allowed = format!(
+                "left out when {first} is given: one of aod550, turbidity and visibility_km says how much aerosol there is"
+            );
+            return Err(Error::input(second, value, allowed));
+        }
+        if let Some(visibility) = self.visibility_km {
+            let pure = (KOSCHMIEDER / molecules_per_km * 10.0).floor() / 10.0;
+            check_range("visibility_km", visibility, SHORTEST_VISIBILITY_KM, pure, "km (that of pure air)")?;
+            return Ok(Some(Amount::VisibilityKm(visibility)));
+        }
+        Ok(self.aod550.map(Amount::OpticalDepth).or(self.turbidity.map(Amount::Turbidity)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn resolve(json: &str) -> Result<Air> {
+        serde_json::from_str::<AirParameters>(json).expect("valid JSON").resolve()
+    }
+
+    #[test]
+    fn three_ways_to_say_how_much_aerosol_agree() {
+        let by_depth = resolve(r#"{"aod550": 0.23, "aerosol": "urban"}"#).unwrap();
+        assert!((by_depth.aod550 - 0.23).abs() < 1e-15);
+        let turbidity = format!(r#"{{"turbidity": {}, "aerosol": "urban"}}"#, by_depth.turbidity);
+        let visibility = format!(r#"{{"visibility_km": {}, "aerosol": "urban"}}"#, by_depth.visibility_km);
+        for json in [turbidity, visibility] {
+            assert!((resolve(&json).unwrap().aod550 - 0.23).abs() < 1e-12, "{json}");
+        }
+        // tau_molecules = 0.0972, so turbidity 2 is an aerosol of the same optical depth.
+        assert!((resolve(r#"{"turbidity": 2}"#).unwrap().aod550 - 0.0972).abs() < 3e-4);
+        assert!(resolve(r#"{"turbidity": 1}"#).unwrap().aod550 < 1e-15);
+    }
+
+    #[test]
+    fn pure_air_has_the_longest_visibility() {
+        let pure = resolve(r#"{"preset": "pure"}"#).unwrap();
+        // checked against: 3.912 / (4.5102e-27 cm2 x 2.5469e19 cm-3) = 340.6 km
+        assert!((pure.visibility_km - 340.6).abs() < 0.3, "{}", pure.visibility_km);
+        assert_eq!((pure.aod550, pure.turbidity), (0.0, 1.0));
+    }
+
+    #[test]
+    fn a_preset_fills_only_what_is_left_out() {
+        let air = resolve(r#"{"preset": "maritime", "ground": 0.3, "ozone_du": 250}"#).unwrap();
+        assert_eq!((air.aerosol, air.aod550), (AerosolType::MaritimeClean, 0.1));
+        assert_eq!((air.ground, air.ozone_du), (Ground::Albedo(0.3), 250.0));
+        assert_eq!(resolve(r#"{"preset": "clear", "aerosol": "none"}"#).unwrap().aod550, 0.0);
+        assert_eq!(resolve(r#"{"aerosol": "rural"}"#).unwrap().aerosol, AerosolType::ContinentalClean);
+        assert!((resolve(r#"{"preset": "thesis"}"#).unwrap().turbidity - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn wrong_values_name_the_parameter() {
+        for (json, start) in [
+            (r#"{"turbidity": -1}"#, "turbidity = -1: must be"),
+            (r#"{"aod550": 11}"#, "aod550 = 11: must be"),
+            (r#"{"visibility_km": 400}"#, "visibility_km = 400: must be a number from 1 to 340"),
+            (r#"{"visibility_km": 0}"#, "visibility_km = 0: must be"),
+            (r#"{"aod550": 0.1, "turbidity": 3}"#, "turbidity = 3: must be left out when aod550 is given"),
+            (r#"{"ozone_du": 2000}"#, "ozone_du = 2000: must be"),
+            (r#"{"asymmetry": 1}"#, "asymmetry = 1: must be"),
+            (r#"{"surface_pressure_hpa": 5}"#, "surface_pressure_hpa = 5: must be"),
+            (r#"{"preset": "pure", "aod550": 0.2}"#, "aerosol = \"none\": must be one of"),
+        ] {
+            let message = resolve(json).unwrap_err().to_string();
+            assert!(message.starts_with(start), "{json}: {message}");
+        }
+        let nan = AirParameters { turbidity: Some(f64::NAN), ..AirParameters::default() };
+        assert!(nan.validate().unwrap_err().to_string().starts_with("turbidity = NaN"));
+    }
+
+    #[test]
+    fn json_refuses_unknown_keys_and_words_and_survives_a_round_trip() {
+        for (json, part) in [
+            (r#"{"turbidty": 3}"#, "turbidty"),
+            (r#"{"aerosol": "smoke"}"#, "aerosol = \"smoke\": must be one of none, continental_clean"),
+            (r#"{"preset": "nice"}"#, "preset = \"nice\": must be one of clear"),
+            (r#"{"standard_atmosphere": "mars"}"#, "standard_atmosphere = \"mars\": must be one of us_standard_1976"),
+        ] {
+            let message = serde_json::from_str::<AirParameters>(json).unwrap_err().to_string();
+            assert!(message.contains(part), "{message}");
+        }
+        let json = r#"{"preset":"hazy","aerosol":"urban","visibility_km":12.5,"standard_atmosphere":"tropical","ground":"sea"}"#;
+        let parameters: AirParameters = serde_json::from_str(json).unwrap();
+        assert_eq!(serde_json::to_string(&parameters).unwrap(), json);
+    }
+}

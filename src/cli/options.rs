@@ -1,0 +1,83 @@
+//! Options that several commands share: where, when, under which air. Each overrides the value of the configuration.
+
+use crate::error::Result;
+use crate::io::Config;
+use clap::Args;
+use std::path::PathBuf;
+
+const PLACE: &str = "Place and time";
+const CONFIGURATION: &str = "Configuration";
+
+/// A configuration file, and whether to print the result of reading everything.
+#[derive(Args)]
+pub struct ConfigOptions {
+    /// JSON file to start from; options override its values.
+    ///
+    /// The keys are those that --dump-config prints, and the names of the Python arguments. An unknown key is an error.
+    #[arg(long, value_name = "FILE", help_heading = CONFIGURATION)]
+    config: Option<PathBuf>,
+    /// Print the whole configuration as JSON, with every default written out, and stop.
+    #[arg(long, help_heading = CONFIGURATION)]
+    pub dump_config: bool,
+}
+
+impl ConfigOptions {
+    /// The configuration of the file, or the defaults.
+    pub fn read(&self) -> Result<Config> {
+        self.config.as_deref().map_or_else(|| Ok(Config::default()), Config::read)
+    }
+}
+
+/// Where and when, or a Sun that is put.
+#[derive(Args)]
+pub struct PlaceOptions {
+    /// Latitude, north positive, -90 to 90 [degrees].
+    #[arg(long, visible_alias = "lat", value_name = "DEG", help_heading = PLACE)]
+    latitude: Option<f64>,
+    /// Longitude, east positive, -180 to 180 [degrees].
+    #[arg(long, visible_alias = "lon", value_name = "DEG", help_heading = PLACE)]
+    longitude: Option<f64>,
+    /// Height of the observer above the sea, -500 to 60000 [m]. Default: 0.
+    #[arg(long, value_name = "M", help_heading = PLACE)]
+    elevation: Option<f64>,
+    /// Date and time (ISO 8601): 2005-06-21T13:00:00+02:00, 2005-06-21T11:00Z, or 2005-06-21T13:00.
+    ///
+    /// Without an offset it is local time in the zone of the place, daylight saving included (or in --zone).
+    #[arg(long, value_name = "TIME", help_heading = PLACE)]
+    time: Option<String>,
+    /// IANA time zone, such as Europe/Stockholm. Default: found from the place, offline.
+    #[arg(long, value_name = "NAME", help_heading = PLACE)]
+    zone: Option<String>,
+    /// By which theory the Sun stands where it does: iau, or thesis (low precision). Default: iau.
+    #[arg(long, value_name = "MODEL", help_heading = PLACE)]
+    sun_model: Option<String>,
+    /// Instead of place and time: altitude of the Sun, -90 to 90 [degrees, without refraction].
+    #[arg(long, value_name = "DEG", requires = "sun_azimuth", conflicts_with_all = ["latitude", "longitude", "time", "zone"],
+          help_heading = PLACE)]
+    sun_altitude: Option<f64>,
+    /// Instead of place and time: azimuth of the Sun, from north through east [degrees].
+    #[arg(long, value_name = "DEG", requires = "sun_altitude", help_heading = PLACE)]
+    sun_azimuth: Option<f64>,
+}
+
+impl PlaceOptions {
+    /// Writes what was given over `config`.
+    pub fn apply(&self, config: &mut Config) -> Result<()> {
+        if self.latitude.is_some() || self.longitude.is_some() || self.time.is_some() {
+            config.sun = None;
+        }
+        if let (Some(altitude_deg), Some(azimuth_deg)) = (self.sun_altitude, self.sun_azimuth) {
+            (config.latitude, config.longitude, config.time, config.zone) = (None, None, None, None);
+            config.sun = Some(crate::io::config::SunPosition { altitude_deg, azimuth_deg });
+        }
+        config.latitude = self.latitude.or(config.latitude);
+        config.longitude = self.longitude.or(config.longitude);
+        config.elevation_m = self.elevation.unwrap_or(config.elevation_m);
+        config.time = self.time.clone().or(config.time.take());
+        config.zone = self.zone.clone().or(config.zone.take());
+        if let Some(model) = &self.sun_model {
+            config.sun_model = model.parse()?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,191 @@
+//! `skyprobe render`: from a place, a time and an air to files.
+
+use super::air_options::AirOptions;
+use super::options::{ConfigOptions, PlaceOptions};
+use super::{say, terminal};
+use crate::error::{Error, Result, check_range};
+use crate::io::{Config, check_output, describe, json, save};
+use crate::probe::{self, MAX_WIDTH, MIN_WIDTH};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const IMAGE: &str = "Image";
+const OUTPUT: &str = "Output";
+
+const EXAMPLES: &str = "\
+Examples:
+  A summer noon in Lund, for Blender (world environment texture; no rotation needed):
+    skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 -o lund.exr
+  The same without the Sun's disc, to be used with a Sun lamp, and a picture to look at:
+    skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 --no-sun-disc -o lund.exr -o lund.png
+  Hazy air over a city, 8k:
+    skyprobe render --lat -33.87 --lon 151.21 --time 2024-01-10T18:30 --aerosol urban --visibility 12 \\
+      --ground city --width 8192 -o sydney.exr
+  A Sun put at 30 degrees in the south, for Mitsuba (envmap; rotate x by 90, then z by 90 degrees):
+    skyprobe render --sun-altitude 30 --sun-azimuth 180 --rows corner --scale mitsuba -o sky.exr
+  Write a configuration, change it by hand, render it:
+    skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 -o lund.exr --dump-config > lund.json
+    skyprobe render --config lund.json --width 512
+
+The image: linear; a latitude-longitude map has the zenith in row 0, north at 1/4 of the width, east in the centre,
+south at 3/4. Files appear whole or not at all. The EXR header holds the whole configuration.
+";
+
+/// Options of `skyprobe render`.
+#[derive(Args)]
+#[command(allow_negative_numbers = true, after_long_help = EXAMPLES, after_help = "Examples and longer explanations: skyprobe render --help")]
+pub struct Options {
+    #[command(flatten)]
+    place: PlaceOptions,
+    #[command(flatten)]
+    air: AirOptions,
+    #[command(flatten)]
+    image: ImageOptions,
+    /// File to write: .exr (float, ZIP), .hdr (Radiance RGBE) or .png (tone mapped, to look at). May be given several times.
+    #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
+    output: Vec<PathBuf>,
+    /// Another file, a tone-mapped picture (.png).
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    preview: Option<PathBuf>,
+    /// Write EXR files with half floats, which end at 65504, below the Sun's disc in most scales.
+    ///
+    /// refuse (the default of this option): a brighter pixel is an error. scale: all pixels are multiplied by a power of two, which the
+    /// header states. off: float32, which is the default without this option.
+    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "refuse", help_heading = OUTPUT)]
+    half: Option<String>,
+    /// Exposure of PNG files relative to the automatic one, -20 to 20 [stops]. Default: 0.
+    #[arg(long, value_name = "STOPS", help_heading = OUTPUT)]
+    exposure: Option<f64>,
+    #[command(flatten)]
+    config: ConfigOptions,
+}
+
+/// What the image is.
+#[derive(Args)]
+struct ImageOptions {
+    /// Width, 64 to 16384 [pixels]. Default: 2048. The height follows: half of it for a full latitude-longitude map.
+    #[arg(long, value_name = "PX", help_heading = IMAGE)]
+    width: Option<i64>,
+    /// latlong, or fisheye (zenith in the centre). Default: latlong.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    projection: Option<String>,
+    /// centre (Blender and most viewers) or corner (Mitsuba: first and last row on the poles). Default: centre.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    rows: Option<String>,
+    /// full sphere, or the upper half. Default: full.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    extent: Option<String>,
+    /// What is seen below the horizon: on (the lit ground), off (black) or mirrored (the sky again). Default: on.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    ground_view: Option<String>,
+    /// Leave the Sun's disc out, to light the scene with a Sun lamp.
+    #[arg(long, help_heading = IMAGE, overrides_with = "sun_disc")]
+    no_sun_disc: bool,
+    /// Draw the Sun's disc, which is the default, over a configuration without it.
+    #[arg(long, help_heading = IMAGE, overrides_with = "no_sun_disc")]
+    sun_disc: bool,
+    /// What 1.0 means: blender (luminance / 683), mitsuba (mean W m-2 sr-1 nm-1) or luminance (cd m-2). Default: blender.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    scale: Option<String>,
+    /// lin_rec709, acescg, lin_rec2020 or xyz; always linear. Default: lin_rec709.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    color_space: Option<String>,
+    /// Colours outside that space: desaturate, clip or keep (as negative numbers). Default: desaturate.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    gamut: Option<String>,
+}
+
+impl ImageOptions {
+    fn apply(&self, config: &mut Config) -> Result<()> {
+        let probe = &mut config.probe;
+        if let Some(width) = self.width {
+            probe.width = check_range("width", width as f64, MIN_WIDTH as f64, MAX_WIDTH as f64, "pixels")? as usize;
+        }
+        if let Some(name) = &self.projection {
+            probe.projection = name.parse()?;
+        }
+        if let Some(name) = &self.rows {
+            probe.rows = name.parse()?;
+        }
+        if let Some(name) = &self.extent {
+            probe.extent = name.parse()?;
+        }
+        if let Some(name) = &self.ground_view {
+            probe.ground = name.parse()?;
+        }
+        if self.no_sun_disc || self.sun_disc {
+            probe.sun_disc = self.sun_disc;
+        }
+        if let Some(name) = &self.scale {
+            probe.scale = name.parse()?;
+        }
+        if let Some(name) = &self.color_space {
+            probe.color_space = name.parse()?;
+        }
+        if let Some(name) = &self.gamut {
+            probe.gamut = json::word("gamut", name)?;
+        }
+        Ok(())
+    }
+}
+
+impl Options {
+    fn config(&self) -> Result<Config> {
+        let mut config = self.config.read()?;
+        self.place.apply(&mut config)?;
+        self.air.apply(&mut config)?;
+        self.image.apply(&mut config)?;
+        if !self.output.is_empty() {
+            config.output.clone_from(&self.output);
+        }
+        if let Some(preview) = &self.preview {
+            if !preview.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("png")) {
+                return Err(Error::input("preview", preview.display(), "a file name that ends in .png"));
+            }
+            config.output.push(preview.clone());
+        }
+        if let Some(name) = &self.half {
+            config.file.half = name.parse()?;
+        }
+        config.file.exposure_stops = self.exposure.unwrap_or(config.file.exposure_stops);
+        config.validate()?;
+        Ok(config)
+    }
+}
+
+/// Renders, and writes the files.
+pub fn run(options: &Options) -> Result<()> {
+    let config = options.config()?;
+    if options.config.dump_config {
+        return say(&config.to_json());
+    }
+    let sky = config.sky(Arc::new(config.atmosphere()?))?;
+    if config.output.is_empty() {
+        return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
+    }
+    config.output.iter().try_for_each(|path| check_target(path))?;
+    let probe = terminal::with_progress(|progress| {
+        let probe = probe::render(&sky.light(progress)?, &config.probe, progress)?;
+        let metadata = describe(&sky, config.sun_model, &config.probe);
+        for (index, path) in config.output.iter().enumerate() {
+            progress.report("write", index as f64 / config.output.len() as f64)?;
+            save(path, &probe, &config.file, &metadata)?;
+        }
+        Ok(probe)
+    })?;
+    let (width, height, sun) = (probe.width, probe.height, sky.sun());
+    let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);
+    config.output.iter().try_for_each(|path| say(&format!("{}: {width} x {height}, {sun}", path.display())))
+}
+
+/// Before any work a path that cannot be written to is wrong input, not a failure of the disk.
+fn check_target(path: &Path) -> Result<()> {
+    if path.is_dir() {
+        return Err(Error::input("output", path.display(), "a file, not a directory"));
+    }
+    check_output(path).map_err(|error| match error {
+        Error::File { reason, .. } => Error::input("output", path.display(), format!("a file that can be written ({reason})")),
+        other => other,
+    })
+}

@@ -1,0 +1,45 @@
+//! Where the observer stands.
+
+use crate::error::{Result, check_range};
+
+/// A place on or above the Earth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Place {
+    /// Geodetic latitude (WGS84), positive north, -90 to 90 [degrees].
+    pub latitude_deg: f64,
+    /// Longitude, positive east, -180 to 180 [degrees].
+    pub longitude_deg: f64,
+    /// Height above the WGS84 ellipsoid, for which the height above sea level will do (they differ by at most 107 m) [m].
+    pub elevation_m: f64,
+}
+
+impl Place {
+    /// The place at these coordinates.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] for `latitude` outside -90 to 90 degrees, `longitude` outside -180 to 180 degrees,
+    /// `elevation_m` outside -500 to 60000 m.
+    pub fn new(latitude_deg: f64, longitude_deg: f64, elevation_m: f64) -> Result<Self> {
+        Ok(Self {
+            latitude_deg: check_range("latitude", latitude_deg, -90.0, 90.0, "degrees")?,
+            longitude_deg: check_range("longitude", longitude_deg, -180.0, 180.0, "degrees")?,
+            elevation_m: check_range("elevation_m", elevation_m, -500.0, 60_000.0, "m")?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_off_the_globe_is_refused_by_name() {
+        let message = |latitude, longitude, elevation| Place::new(latitude, longitude, elevation).unwrap_err().to_string();
+        assert_eq!(message(91.0, 0.0, 0.0), "latitude = 91: must be a number from -90 to 90 degrees");
+        assert!(message(0.0, -180.1, 0.0).starts_with("longitude = -180.1"));
+        assert!(message(0.0, 0.0, f64::NAN).starts_with("elevation_m = NaN"));
+        assert!(message(0.0, 0.0, 60_001.0).contains("-500 to 60000 m"));
+        assert!(Place::new(-90.0, 180.0, -430.0).is_ok());
+    }
+}

@@ -1,0 +1,86 @@
+//! What can go wrong, and what the caller can do about it.
+//!
+//! There are few kinds on purpose: mend the input, mend the data, look at the
+//! disk, or accept that the work was cancelled.
+
+use std::path::{Path, PathBuf};
+
+/// Result of every fallible operation of the crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// The four ways in which work ends without a result.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The caller gave a value that cannot be used; nothing was computed.
+    #[error("{parameter} = {value}: must be {allowed}")]
+    Input {
+        /// Name of the parameter as the caller knows it, the same in Rust, Python, configuration and command line.
+        parameter: String,
+        /// The value given, as text.
+        value: String,
+        /// The allowed range or spelling, with unit.
+        allowed: String,
+    },
+    /// A table or file has content that cannot be used.
+    #[error("{what}")]
+    Data {
+        /// What is wrong with which data.
+        what: String,
+    },
+    /// Reading or writing failed; a target file is untouched.
+    #[error("{}: {reason}", path.display())]
+    File {
+        /// The file that was to be read or written.
+        path: PathBuf,
+        /// Why it could not be.
+        reason: String,
+    },
+    /// The progress callback asked to stop; nothing was left behind.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl Error {
+    /// An [`Error::Input`] for `parameter`, whose `value` is not `allowed`.
+    pub fn input(parameter: impl Into<String>, value: impl ToString, allowed: impl Into<String>) -> Self {
+        Self::Input { parameter: parameter.into(), value: value.to_string(), allowed: allowed.into() }
+    }
+
+    /// An [`Error::Data`].
+    pub fn data(what: impl Into<String>) -> Self {
+        Self::Data { what: what.into() }
+    }
+
+    /// An [`Error::File`] for `path`.
+    pub fn file(path: impl AsRef<Path>, reason: impl ToString) -> Self {
+        Self::File { path: path.as_ref().to_path_buf(), reason: reason.to_string() }
+    }
+}
+
+/// Returns `value` if it is finite and within `[low, high]`, else an [`Error::Input`] that names
+/// `parameter`, the value and the range with its `unit` (empty for none).
+pub fn check_range(parameter: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<f64> {
+    if value.is_finite() && (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    let space = if unit.is_empty() { "" } else { " " };
+    Err(Error::input(parameter, value, format!("a number from {low} to {high}{space}{unit}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_names_parameter_value_and_range() {
+        let message = check_range("latitude", 91.0, -90.0, 90.0, "degrees").unwrap_err().to_string();
+        assert_eq!(message, "latitude = 91: must be a number from -90 to 90 degrees");
+    }
+
+    #[test]
+    fn not_a_number_is_never_in_range() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(check_range("turbidity", value, f64::MIN, f64::MAX, "").is_err());
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! The configuration: all that a probe is made from, as JSON. The keys are the names of the Python arguments.
+//!
+//! ```json
+//! {
+//!   "latitude": 55.71, "longitude": 13.19, "elevation_m": 20, "time": "2005-06-21T13:00:00+02:00",
+//!   "atmosphere": {"preset": "clear", "turbidity": 3, "quality": "standard"},
+//!   "probe": {"width": 2048, "scale": "blender"},
+//!   "output": ["sky.exr", "sky.png"]
+//! }
+//! ```
+//! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
+//! is a default; an unknown key is an error.
+
+use super::{FileOptions, json};
+use crate::atmosphere::AirParameters;
+use crate::ephemeris::{Place, SunModel};
+use crate::error::{Error, Result, check_range};
+use crate::probe::ProbeSettings;
+use crate::quality::Quality;
+use crate::sky::{Atmosphere, Sky};
+use crate::time::{Time, ZoneChoice};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Everything that a probe is made from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Config {
+    /// Geodetic latitude, -90 to 90 [degrees].
+    pub latitude: Option<f64>,
+    /// Longitude, positive east, -180 to 180 [degrees].
+    pub longitude: Option<f64>,
+    /// Height of the observer above the sea [m].
+    pub elevation_m: f64,
+    /// Date and time, ISO 8601; see [`Time::parse`]. Without offset it is local time in `zone`.
+    pub time: Option<String>,
+    /// IANA time zone; without it the zone of the place.
+    pub zone: Option<String>,
+    /// A Sun that is put in the sky, instead of place and time.
+    pub sun: Option<SunPosition>,
+    /// By which theory the Sun's position is computed.
+    pub sun_model: SunModel,
+    /// The state of the air.
+    pub atmosphere: AtmosphereConfig,
+    /// The image.
+    pub probe: ProbeSettings,
+    /// What belongs to the files rather than to the light.
+    pub file: FileOptions,
+    /// Files to write: .exr, .hdr or .png.
+    pub output: Vec<PathBuf>,
+}
+
+/// Where the Sun is put.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SunPosition {
+    /// Airless altitude, -90 to 90 [degrees].
+    pub altitude_deg: f64,
+    /// Azimuth from north through east [degrees].
+    pub azimuth_deg: f64,
+}
+
+/// The state of the air and how finely its light is solved: one table in JSON.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AtmosphereConfig {
+    /// What the air is made of.
+    pub air: AirParameters,
+    /// How finely the light is solved.
+    pub quality: Quality,
+    /// Whether polarisation is followed.
+    pub polarisation: bool,
+}
+
+/// The top level as it is written, its tables still unread.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Document {
+    latitude: Option<f64>,
+    longitude: Option<f64>,
+    elevation_m: f64,
+    time: Option<String>,
+    zone: Option<String>,
+    sun: Option<Value>,
+    sun_model: SunModel,
+    atmosphere: Option<Value>,
+    probe: Option<Value>,
+    file: Option<Value>,
+    output: Option<Value>,
+}
+
+/// The keys of the table `atmosphere` that are not the air's.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct SolveKeys {
+    quality: Quality,
+    polarisation: bool,
+}
+
+impl Config {
+    /// Reads and checks a configuration file.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if the file cannot be read, for `config`, or as [`Config::from_json`].
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| Error::input("config", path.display(), format!("a readable file of JSON text ({error})")))?;
+        Self::from_json(&text)
+    }
+
+    /// Reads and checks a configuration. What is missing has its default; place and time may be missing, too.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for text that is not JSON, an unknown key, a value of the wrong type or out of range; it names the key with
+    /// its table, such as `atmosphere.turbidity`.
+    pub fn from_json(text: &str) -> Result<Self> {
+        let value: Value =
+            serde_json::from_str(text).map_err(|error| Error::input("config", "text", format!("JSON ({error})")))?;
+        let document: Document = json::read("", &value)?;
+        let config = Self {
+            latitude: document.latitude,
+            longitude: document.longitude,
+            elevation_m: document.elevation_m,
+            time: document.time,
+            zone: document.zone,
+            sun: document.sun.map(|sun| json::read("sun", &sun)).transpose()?,
+            sun_model: document.sun_model,
+            atmosphere: document
+                .atmosphere
+                .map(|air| AtmosphereConfig::from_value("atmosphere", &air))
+                .transpose()?
+                .unwrap_or_default(),
+            probe: document.probe.map(|probe| json::read("probe", &probe)).transpose()?.unwrap_or_default(),
+            file: document.file.map(|file| json::read("file", &file)).transpose()?.unwrap_or_default(),
+            output: document.output.map_or(Ok(Vec::new()), |output| read_output(&output))?,
+        };
+        config.validate_sections(["sun", "atmosphere", "probe", "file"])?;
+        Ok(config)
+    }
+
+    /// The configuration with every value written out, as indented JSON.
+    pub fn to_json(&self) -> String {
+        format!("{:#}", self.to_value())
+    }
+
+    /// The configuration with every value written out.
+    pub fn to_value(&self) -> Value {
+        let mut map = Map::new();
+        let mut put = |key: &str, value: Value| {
+            if !value.is_null() {
+                map.insert(key.to_string(), value);
+            }
+        };
+        put("latitude", value_of(&self.latitude));
+        put("longitude", value_of(&self.longitude));
+        put("elevation_m", value_of(&self.elevation_m));
+        put("time", value_of(&self.time));
+        put("zone", value_of(&self.zone));
+        put("sun", value_of(&self.sun));
+        put("sun_model", value_of(&self.sun_model));
+        put("atmosphere", self.atmosphere.to_value());
+        put("probe", value_of(&self.probe));
+        put("file", value_of(&self.file));
+        if !self.output.is_empty() {
+            put("output", self.output.iter().map(|path| Value::from(path.to_string_lossy())).collect());
+        }
+        Value::Object(map)
+    }
+
+    /// Checks the range of every value that is given, and that the Sun is not given twice.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the parameter.
+    pub fn validate(&self) -> Result<()> {
+        self.validate_sections([""; 4])
+    }
+
+    /// As [`Config::validate`], with the names of the tables in front of the parameters in errors.
+    fn validate_sections(&self, [sun_table, air_table, probe_table, file_table]: [&str; 4]) -> Result<()> {
+        Place::new(self.latitude.unwrap_or(0.0), self.longitude.unwrap_or(0.0), self.elevation_m)?;
+        if let Some(sun) = &self.sun {
+            if self.latitude.is_some() || self.longitude.is_some() || self.time.is_some() {
+                return Err(Error::input("sun", sun, "left out where place and time are given, or given alone"));
+            }
+            check_range(&json::join(sun_table, "altitude_deg"), sun.altitude_deg, -90.0, 90.0, "degrees")?;
+            check_range(&json::join(sun_table, "azimuth_deg"), sun.azimuth_deg, -360.0, 360.0, "degrees")?;
+        }
+        if let Some(text) = &self.time {
+            // Without a place its zone is not known yet; UTC serves to check the spelling.
+            let zone = self.zone.as_deref().unwrap_or("UTC");
+            Time::parse(text, ZoneChoice::Named(zone))?;
+        }
+        check_range(&json::join(file_table, "exposure_stops"), self.file.exposure_stops, -20.0, 20.0, "stops")?;
+        self.atmosphere.air.validate().map_err(|error| json::within(air_table, error))?;
+        self.probe.validate().map_err(|error| json::within(probe_table, error))
+    }
+
+    /// The place.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if latitude or longitude is missing or out of range.
+    pub fn place(&self) -> Result<Place> {
+        let given = |name: &str, value: Option<f64>| {
+            value.ok_or_else(|| {
+                Error::input(name, "nothing", "given, together with the time, or the Sun's altitude and azimuth instead")
+            })
+        };
+        Place::new(given("latitude", self.latitude)?, given("longitude", self.longitude)?, self.elevation_m)
+    }
+
+    /// The air, not solved yet.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the parameter.
+    pub fn atmosphere(&self) -> Result<Atmosphere> {
+        let AtmosphereConfig { air, quality, polarisation } = &self.atmosphere;
+        Atmosphere::new(air, *quality, *polarisation)
+    }
+
+    /// The sky of `atmosphere` over the place at the time, or under the Sun that is put.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if place, time and Sun are missing or out of range.
+    pub fn sky(&self, atmosphere: Arc<Atmosphere>) -> Result<Sky> {
+        if let Some(sun) = &self.sun {
+            return Sky::with_sun(sun.altitude_deg, sun.azimuth_deg, self.elevation_m, atmosphere);
+        }
+        let place = self.place()?;
+        let Some(text) = &self.time else {
+            return Err(Error::input("time", "nothing", "given, such as 2005-06-21T13:00:00+02:00"));
+        };
+        Sky::new(place, time_at(&place, text, self.zone.as_deref())?, self.sun_model, atmosphere)
+    }
+}
+
+/// The instant that `text` means at `place`: a text without offset is local time in `zone`, or in the zone of the place.
+///
+/// # Errors
+/// [`Error::Input`] as [`Time::parse`].
+pub fn time_at(place: &Place, text: &str, zone: Option<&str>) -> Result<Time> {
+    let Place { latitude_deg, longitude_deg, .. } = *place;
+    Time::parse(text, zone.map_or(ZoneChoice::OfPlace { latitude_deg, longitude_deg }, ZoneChoice::Named))
+}
+
+impl AtmosphereConfig {
+    /// Reads the table found under the key `path`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the key.
+    pub fn from_value(path: &str, value: &Value) -> Result<Self> {
+        let SolveKeys { quality, polarisation } = json::read(path, value)?;
+        let mut air = value.clone();
+        if let Some(map) = air.as_object_mut() {
+            map.shift_remove("quality");
+            map.shift_remove("polarisation");
+        }
+        // The reader of the air does not know the two keys that are not its own.
+        let air = json::read(path, &air).map_err(|error| match error {
+            Error::Input { parameter, value, allowed } if parameter.starts_with("unknown key ") => {
+                Error::Input { parameter, value, allowed: allowed + ", quality, polarisation" }
+            }
+            other => other,
+        })?;
+        Ok(Self { air, quality, polarisation })
+    }
+
+    fn to_value(&self) -> Value {
+        let mut value = value_of(&self.air);
+        if let Some(map) = value.as_object_mut() {
+            map.insert("quality".to_string(), value_of(&self.quality));
+            map.insert("polarisation".to_string(), Value::Bool(self.polarisation));
+        }
+        value
+    }
+}
+
+impl std::fmt::Display for SunPosition {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "altitude {}, azimuth {}", self.altitude_deg, self.azimuth_deg)
+    }
+}
+
+/// A value as JSON; numbers that JSON cannot hold, which no checked configuration has, become null.
+fn value_of<T: Serialize>(value: &T) -> Value {
+    serde_json::to_value(value).unwrap_or(Value::Null)
+}
+
+fn read_output(value: &Value) -> Result<Vec<PathBuf>> {
+    let wrong = || Error::input("output", value, "a file name or a list of file names");
+    let path = |value: &Value| value.as_str().map(PathBuf::from).ok_or_else(wrong);
+    match value {
+        Value::Null => Ok(Vec::new()),
+        Value::Array(names) => names.iter().map(path).collect(),
+        _ => Ok(vec![path(value)?]),
+    }
+}
+
+#[cfg(test)]
+mod tests;

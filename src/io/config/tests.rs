@@ -1,0 +1,155 @@
+use super::*;
+use crate::atmosphere::{AerosolType, Ground, Preset, Surface};
+use crate::io::Half;
+use crate::probe::{Extent, GroundView, Projection, Rows};
+use crate::spectrum::{ColorSpace, Gamut};
+use crate::units::Scale;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn message(text: &str) -> String {
+    Config::from_json(text).unwrap_err().to_string()
+}
+
+#[test]
+fn wrong_input_names_the_key_with_its_table() {
+    for (text, start) in [
+        (r#"{"latitude": 91}"#, "latitude = 91: must be a number from -90 to 90 degrees"),
+        (r#"{"latitude": "north"}"#, r#"latitude = "north": must be a number"#),
+        (r#"{"time": "yesterday"}"#, r#"time = "yesterday": must be "#),
+        (r#"{"zone": "Mars/Olympus", "time": "2005-06-21T13:00"}"#, r#"zone = "Mars/Olympus": must be "#),
+        (r#"{"lattitude": 5}"#, "unknown key lattitude = 5: must be left out, or one of latitude, longitude"),
+        (r#"{"atmosphere": {"turbidity": -1}}"#, "atmosphere.turbidity = -1: must be a number from 1 to 64"),
+        (r#"{"atmosphere": {"turbidty": 2}}"#, "unknown key atmosphere.turbidty = 2: must be left out, or one of preset"),
+        (r#"{"atmosphere": {"quality": "best"}}"#, r#"atmosphere.quality = "best": must be one of draft"#),
+        (r#"{"atmosphere": {"ground": "lava"}}"#, r#"atmosphere.ground = "lava": must be "#),
+        (r#"{"atmosphere": []}"#, "atmosphere = []: must be a table"),
+        (r#"{"probe": {"width": 0}}"#, "probe.width = 0: must be a number from 64 to 16384 pixels"),
+        (r#"{"probe": {"width": 64.5}}"#, "probe.width = 64.5: must be a whole number"),
+        (r#"{"probe": {"scale": "nits"}}"#, r#"probe.scale = "nits": must be one of blender"#),
+        (r#"{"sun": {"altitude_deg": 95, "azimuth_deg": 0}}"#, "sun.altitude_deg = 95: must be"),
+        (r#"{"sun": {"altitude_deg": 5}}"#, "sun"),
+        (r#"{"sun": {"altitude_deg": 5, "azimuth_deg": 0}, "latitude": 3}"#, "sun = altitude 5, azimuth 0: must be left out"),
+        (r#"{"file": {"exposure_stops": 99}}"#, "file.exposure_stops = 99: must be"),
+        (r#"{"output": 3}"#, "output = 3: must be a file name"),
+        ("[]", "configuration = []: must be a table"),
+        ("{", "config = text: must be JSON ("),
+    ] {
+        let message = message(text);
+        assert!(message.starts_with(start), "{text}: {message}");
+        assert!(!message.contains('\n'), "{message}");
+    }
+}
+
+#[test]
+fn unknown_keys_of_the_air_are_told_about_the_keys_of_the_solver_too() {
+    let message = message(r#"{"atmosphere": {"qualty": "high"}}"#);
+    assert!(message.ends_with("quality, polarisation"), "{message}");
+}
+
+#[test]
+fn an_empty_configuration_is_the_default_and_says_what_is_missing() {
+    let config = Config::from_json("{}").unwrap();
+    assert_eq!(config, Config::default());
+    assert!(config.place().unwrap_err().to_string().starts_with("latitude = nothing: must be given"));
+}
+
+#[test]
+fn one_name_or_several_may_be_the_output() {
+    let paths = |text: &str| Config::from_json(text).unwrap().output;
+    assert_eq!(paths(r#"{"output": "sky.exr"}"#), [PathBuf::from("sky.exr")]);
+    assert_eq!(paths(r#"{"output": ["a.exr", "b.png"]}"#), [PathBuf::from("a.exr"), PathBuf::from("b.png")]);
+    assert!(paths(r#"{"output": null}"#).is_empty());
+}
+
+#[test]
+fn not_a_number_is_refused_where_it_cannot_come_from_json() {
+    let sun = Some(SunPosition { altitude_deg: f64::NAN, azimuth_deg: 0.0 });
+    for config in [
+        Config { latitude: Some(f64::NAN), ..Config::default() },
+        Config { elevation_m: f64::INFINITY, ..Config::default() },
+        Config { sun, ..Config::default() },
+    ] {
+        assert!(matches!(config.validate(), Err(Error::Input { .. })));
+    }
+}
+
+fn optional<T: Clone + std::fmt::Debug + 'static>(inner: impl Strategy<Value = T> + 'static) -> BoxedStrategy<Option<T>> {
+    proptest::option::of(inner).boxed()
+}
+
+fn any_air() -> impl Strategy<Value = AtmosphereConfig> {
+    let grounds = prop_oneof![
+        select(vec![Surface::Grass, Surface::Snow, Surface::City]).prop_map(Ground::Surface),
+        (0.0..=1.0).prop_map(Ground::Albedo)
+    ];
+    let presets = select(vec![Preset::Clear, Preset::Hazy, Preset::Antarctic]);
+    let aerosols = optional(select(vec![AerosolType::Urban, AerosolType::Desert]));
+    let qualities = select(vec![Quality::Draft, Quality::Standard, Quality::High, Quality::Reference]);
+    (presets, aerosols, optional(1.0..=64.0), optional(0.0..=1000.0), optional(grounds), qualities).prop_map(
+        |(preset, aerosol, turbidity, ozone_du, ground, quality)| AtmosphereConfig {
+            air: AirParameters { preset, aerosol, turbidity, ozone_du, ground, ..AirParameters::default() },
+            quality,
+            polarisation: false,
+        },
+    )
+}
+
+fn any_probe() -> impl Strategy<Value = ProbeSettings> {
+    let image = (
+        (16_usize..=4096).prop_map(|quarter| quarter * 4),
+        select(vec![Projection::LatLong, Projection::Fisheye]),
+        select(vec![Rows::Centre, Rows::Corner]),
+        select(vec![Extent::Full, Extent::Upper]),
+        select(vec![GroundView::On, GroundView::Off, GroundView::Mirrored]),
+    );
+    let colour = (
+        any::<bool>(),
+        select(vec![Scale::Blender, Scale::Mitsuba, Scale::Luminance]),
+        select(vec![ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz]),
+        select(vec![Gamut::Desaturate, Gamut::Clip, Gamut::Keep]),
+    );
+    (image, colour).prop_map(|((width, projection, rows, extent, ground), (sun_disc, scale, color_space, gamut))| ProbeSettings {
+        width,
+        projection,
+        rows,
+        extent,
+        ground,
+        sun_disc,
+        scale,
+        color_space,
+        gamut,
+    })
+}
+
+fn any_config() -> impl Strategy<Value = Config> {
+    let place = (-90.0..=90.0_f64, -180.0..=180.0_f64, select(vec!["2005-06-21T13:00:00+02:00", "1987-01-02T03:04"]));
+    let sun = (-90.0..=90.0_f64, -360.0..=360.0_f64);
+    let sky = prop_oneof![place.prop_map(Ok), sun.prop_map(Err)];
+    let zone = optional(select(vec!["Europe/Stockholm".to_string(), "UTC".to_string()]));
+    let files = (select(vec![Half::Off, Half::Refuse, Half::Scale]), -20.0..=20.0_f64);
+    let output = proptest::collection::vec("[a-z ]{1,8}\\.exr".prop_map(PathBuf::from), 0..3);
+    (sky, zone, -500.0..=60_000.0_f64, select(vec![SunModel::Iau, SunModel::Thesis]), any_air(), any_probe(), files, output)
+        .prop_map(|(sky, zone, elevation_m, sun_model, atmosphere, probe, (half, exposure_stops), output)| {
+            let file = FileOptions { half, exposure_stops };
+            let common = Config { elevation_m, zone, sun_model, atmosphere, probe, file, output, ..Config::default() };
+            match sky {
+                Ok((latitude, longitude, time)) => {
+                    Config { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
+                }
+                Err((altitude_deg, azimuth_deg)) => Config { sun: Some(SunPosition { altitude_deg, azimuth_deg }), ..common },
+            }
+        })
+}
+
+proptest! {
+    #[test]
+    fn what_is_written_reads_back_to_the_last_digit(config in any_config()) {
+        prop_assert_eq!(Config::from_json(&config.to_json()).unwrap(), config);
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic(text in "[\\[\\]{}:,\"a-z0-9.-]{0,40}") {
+        let _ = Config::from_json(&text);
+    }
+}

@@ -1,0 +1,298 @@
+//! OpenEXR: float32 (or half) with ZIP compression, and a header that says what the picture is.
+//!
+//! Standard attributes: `chromaticities`, `whiteLuminance`, `latitude`, `longitude`, `altitude`, `capDate`, `utcOffset`, `wrapmodes`,
+//! `comments`, `software`, `colorInteropID`; our own begin with `skyprobe.`. Pixels in XYZ are in the channels R, G, B with the chromaticities of XYZ, as the
+//! OpenEXR documentation proposes.
+//!
+//! `envmap` is never written: its `latlong` puts the first and last columns both on the seam and the poles on the first and
+//! last rows, with other axes; none of our layouts has columns there, and a reader that believed it would turn the sky.
+
+use super::metadata::Metadata;
+use super::{Half, own_fields};
+use crate::error::{Error, Result};
+use crate::probe::{Probe, Projection};
+use crate::spectrum::ColorSpace;
+use ::exr::meta::attribute::{AttributeValue, Chromaticities, Text};
+use ::exr::prelude::{
+    Blocks, Compression, Encoding, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes, LineOrder, ReadChannels,
+    ReadLayers, SpecificChannels, Vec2, WritableImage, f16,
+};
+use std::collections::BTreeMap;
+use std::io::{BufReader, Seek, Write};
+use std::path::Path;
+
+/// Greatest finite half float.
+pub const HALF_MAX: f32 = 65504.0;
+
+/// The power of two that brings all pixels of `probe` within half floats: 1 if they are.
+pub fn half_scale(probe: &Probe) -> f32 {
+    let (largest, _) = largest(probe);
+    let mut scale = 1.0;
+    while largest * scale > HALF_MAX {
+        scale *= 0.5;
+    }
+    scale
+}
+
+fn largest(probe: &Probe) -> (f32, usize) {
+    probe.pixels.iter().enumerate().fold((0.0, 0), |best, (k, value)| if value.abs() > best.0 { (value.abs(), k) } else { best })
+}
+
+/// Writes `probe`; `path` is only for messages.
+///
+/// # Errors
+/// [`Error::Input`] if half floats were asked for that cannot hold a pixel, [`Error::File`].
+pub(super) fn write(out: &mut (impl Write + Seek), path: &Path, probe: &Probe, half: Half, metadata: &Metadata) -> Result<()> {
+    let scale = match half {
+        Half::Off => 1.0,
+        Half::Scale => half_scale(probe),
+        Half::Refuse => {
+            let (value, k) = largest(probe);
+            if value > HALF_MAX {
+                let pixel = k / 3;
+                let what = format!("{value} in the pixel at column {}, row {}", pixel % probe.width, pixel / probe.width);
+                return Err(Error::input(
+                    "half",
+                    what,
+                    "at most 65504: write float32, leave the Sun's disc out, or choose half = scale",
+                ));
+            }
+            1.0
+        }
+    };
+    let attributes = layer_attributes(probe, metadata, scale);
+    let (width, pixels) = (probe.width, &probe.pixels);
+    let at = |position: Vec2<usize>| {
+        let k = 3 * (position.y() * width + position.x());
+        (scale * pixels[k], scale * pixels[k + 1], scale * pixels[k + 2])
+    };
+    let size = Vec2(probe.width, probe.height);
+    // Rows rather than tiles: what every reader knows.
+    let encoding = Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+    let failed = |error: ::exr::error::Error| Error::file(path, error);
+    if half == Half::Off {
+        let layer = Layer::new(size, attributes, encoding, SpecificChannels::rgb(at));
+        Image { attributes: image_attributes(probe), layer_data: layer }.write().to_buffered(out).map_err(failed)
+    } else {
+        let at = |position: Vec2<usize>| {
+            let (red, green, blue) = at(position);
+            (f16::from_f32(red), f16::from_f32(green), f16::from_f32(blue))
+        };
+        let layer = Layer::new(size, attributes, encoding, SpecificChannels::rgb(at));
+        Image { attributes: image_attributes(probe), layer_data: layer }.write().to_buffered(out).map_err(failed)
+    }
+}
+
+fn image_attributes(probe: &Probe) -> ImageAttributes {
+    let point = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
+    let found = probe.settings.color_space.chromaticities();
+    let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(probe.width, probe.height)));
+    attributes.chromaticities = Some(Chromaticities {
+        red: point(found.red),
+        green: point(found.green),
+        blue: point(found.blue),
+        white: point(found.white),
+    });
+    attributes
+}
+
+fn layer_attributes(probe: &Probe, metadata: &Metadata, scale: f32) -> LayerAttributes {
+    let settings = &probe.settings;
+    let wrap = match settings.projection {
+        Projection::LatLong => "periodic,clamp",
+        Projection::Fisheye => "black",
+    };
+    let mut comments = metadata.comments.clone();
+    if scale != 1.0 {
+        let warning = format!("The pixels are multiplied by {scale} to fit half floats: divide by it for true values.");
+        comments = Some(comments.map_or(warning.clone(), |text| format!("{warning}\n{text}")));
+    }
+    let mut attributes = LayerAttributes {
+        white_luminance: Some((settings.scale.white_luminance() / f64::from(scale)) as f32),
+        latitude: metadata.latitude_deg.map(|value| value as f32),
+        longitude: metadata.longitude_deg.map(|value| value as f32),
+        altitude: metadata.elevation_m.map(|value| value as f32),
+        capture_date: metadata.capture_date.as_deref().map(text),
+        // OpenEXR: UTC = local time + utcOffset.
+        utc_offset: metadata.utc_offset_s.map(|value| -value as f32),
+        wrap_mode_name: Some(text(wrap)),
+        comments: comments.as_deref().map(text),
+        software_name: Some(text(concat!("skyprobe ", env!("CARGO_PKG_VERSION")))),
+        ..LayerAttributes::default()
+    };
+    if settings.color_space != ColorSpace::Xyz {
+        let id = AttributeValue::Text(text(settings.color_space.interop_id()));
+        attributes.other.insert(text("colorInteropID"), id);
+    }
+    for (name, value) in own_fields(probe, metadata) {
+        attributes.other.insert(text(&name), AttributeValue::Text(text(&value)));
+    }
+    if scale != 1.0 {
+        attributes.other.insert(text("skyprobe.pixel_scale"), AttributeValue::F32(scale));
+    }
+    attributes
+}
+
+/// The UTF-8 bytes of `value`, whatever its characters (the crate's own conversion takes Latin-1 only).
+fn text(value: &str) -> Text {
+    let bytes: String = value.bytes().map(char::from).collect();
+    Text::new_or_none(bytes).unwrap_or_default()
+}
+
+fn string(value: &Text) -> String {
+    let bytes: Vec<u8> = value.to_string().chars().map(|character| character as u8).collect();
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// What [`read`] found.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Width [pixels].
+    pub width: usize,
+    /// Height [pixels].
+    pub height: usize,
+    /// Values of R, G and B as stored, row-major (height, width, 3).
+    pub pixels: Vec<f32>,
+    /// The header's texts and numbers by name, as text.
+    pub attributes: BTreeMap<String, String>,
+}
+
+/// Reads the RGB channels and the header of an EXR file.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read or has no such channels.
+pub fn read(path: impl AsRef<Path>) -> Result<Picture> {
+    let path = path.as_ref();
+    let file = std::fs::File::open(path).map_err(|error| Error::file(path, error))?;
+    let image = ::exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgb_channels(
+            |size: Vec2<usize>, _| (size.width(), vec![0.0_f32; 3 * size.area()]),
+            |(width, pixels): &mut (usize, Vec<f32>), at: Vec2<usize>, (red, green, blue): (f32, f32, f32)| {
+                let k = 3 * (at.y() * *width + at.x());
+                pixels[k..k + 3].copy_from_slice(&[red, green, blue]);
+            },
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(BufReader::new(file))
+        .map_err(|error| Error::file(path, error))?;
+    let layer = image.layer_data;
+    let own = &layer.attributes;
+    let mut attributes = BTreeMap::new();
+    let mut put = |name: &str, value: Option<String>| {
+        if let Some(value) = value {
+            attributes.insert(name.to_owned(), value);
+        }
+    };
+    let number = |value: Option<f32>| value.map(|value| value.to_string());
+    put("whiteLuminance", number(own.white_luminance));
+    put("latitude", number(own.latitude));
+    put("longitude", number(own.longitude));
+    put("altitude", number(own.altitude));
+    put("utcOffset", number(own.utc_offset));
+    put("capDate", own.capture_date.as_ref().map(string));
+    put("wrapmodes", own.wrap_mode_name.as_ref().map(string));
+    put("comments", own.comments.as_ref().map(string));
+    put("software", own.software_name.as_ref().map(string));
+    put("envmap", own.environment_map.as_ref().map(|map| format!("{map:?}")));
+    put("chromaticities", image.attributes.chromaticities.map(|found| format!("{found:?}")));
+    for (name, value) in own.other.iter().chain(&image.attributes.other) {
+        match value {
+            AttributeValue::Text(value) => put(&string(name), Some(string(value))),
+            AttributeValue::F32(value) => put(&string(name), Some(value.to_string())),
+            AttributeValue::F64(value) => put(&string(name), Some(value.to_string())),
+            AttributeValue::I32(value) => put(&string(name), Some(value.to_string())),
+            _ => {}
+        }
+    }
+    Ok(Picture { width: layer.size.width(), height: layer.size.height(), pixels: layer.channel_data.pixels.1, attributes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{FileOptions, save, tests::gradient};
+    use super::*;
+    use crate::probe::{ProbeSettings, Rows};
+    use crate::units::Scale;
+
+    fn options(half: Half) -> FileOptions {
+        FileOptions { half, ..Default::default() }
+    }
+
+    #[test]
+    fn float_pixels_come_back_exactly_with_their_header() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sky.exr");
+        let settings = ProbeSettings { width: 64, rows: Rows::Corner, scale: Scale::Mitsuba, ..Default::default() };
+        let probe = gradient(settings);
+        let metadata = Metadata {
+            latitude_deg: Some(55.75),
+            longitude_deg: Some(13.1875),
+            elevation_m: Some(20.5),
+            capture_date: Some("2005:06:21 13:00:00".to_owned()),
+            utc_offset_s: Some(7200.0),
+            sun_altitude_deg: Some(57.5),
+            sun_azimuth_deg: Some(170.25),
+            config_json: Some("{\"width\": 64}".to_owned()),
+            comments: Some("Århus, 東京".to_owned()),
+        };
+        save(&path, &probe, &FileOptions::default(), &metadata).unwrap();
+        let found = read(&path).unwrap();
+        let meta = ::exr::meta::MetaData::read_from_file(&path, true).unwrap();
+        assert_eq!(meta.headers[0].blocks, ::exr::meta::BlockDescription::ScanLines);
+        assert_eq!(meta.headers[0].compression, Compression::ZIP16);
+        assert_eq!((found.width, found.height), (64, 32));
+        assert!(found.pixels == probe.pixels);
+        let expected = [
+            ("latitude", "55.75"),
+            ("longitude", "13.1875"),
+            ("altitude", "20.5"),
+            ("capDate", "2005:06:21 13:00:00"),
+            ("utcOffset", "-7200"),
+            ("wrapmodes", "periodic,clamp"),
+            ("comments", "Århus, 東京"),
+            ("colorInteropID", "lin_rec709_scene"),
+            ("skyprobe.rows", "corner"),
+            ("skyprobe.scale", "mitsuba"),
+            ("skyprobe.color_space", "lin_rec709"),
+            ("skyprobe.projection", "latlong"),
+            ("skyprobe.sun_altitude_deg", "57.500000"),
+            ("skyprobe.sun_azimuth_deg", "170.250000"),
+            ("skyprobe.config", "{\"width\": 64}"),
+            ("skyprobe.version", env!("CARGO_PKG_VERSION")),
+        ];
+        for (name, value) in expected {
+            assert_eq!(found.attributes.get(name).map(String::as_str), Some(value), "{name}");
+        }
+        let white: f64 = found.attributes["whiteLuminance"].parse().unwrap();
+        assert!((white / (683.0 * 106.857) - 1.0).abs() < 1e-6);
+        assert!(found.attributes["chromaticities"].contains("0.64"));
+        assert!(!found.attributes.contains_key("envmap") && !found.attributes.contains_key("skyprobe.pixel_scale"));
+    }
+
+    #[test]
+    fn half_floats_refuse_or_scale_what_they_cannot_hold() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sky.exr");
+        let mut probe = gradient(ProbeSettings { width: 64, ..Default::default() });
+        save(&path, &probe, &options(Half::Refuse), &Metadata::default()).unwrap();
+        let found = read(&path).unwrap();
+        assert!(found.pixels.iter().zip(&probe.pixels).all(|(a, b)| (a / b - 1.0).abs() < 0.001));
+        std::fs::remove_file(&path).unwrap();
+
+        probe.pixels[3 * (5 * 64 + 7) + 1] = 1_953_000.0;
+        let message = save(&path, &probe, &options(Half::Refuse), &Metadata::default()).unwrap_err().to_string();
+        assert!(message.starts_with("half = 1953000 in the pixel at column 7, row 5: must be at most 65504"), "{message}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+
+        save(&path, &probe, &options(Half::Scale), &Metadata::default()).unwrap();
+        let found = read(&path).unwrap();
+        let scale: f32 = found.attributes["skyprobe.pixel_scale"].parse().unwrap();
+        assert_eq!(scale, 1.0 / 32.0);
+        assert!(found.attributes["comments"].contains("multiplied by 0.03125"));
+        assert!((found.attributes["whiteLuminance"].parse::<f32>().unwrap() - 683.0 * 32.0).abs() < 0.01);
+        assert!(found.pixels.iter().zip(&probe.pixels).all(|(a, b)| (a / scale / b - 1.0).abs() < 0.001));
+    }
+}

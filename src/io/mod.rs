@@ -1,0 +1,183 @@
+//! Files: EXR, HDR, PNG, configuration; written whole or not at all.
+
+pub mod atomic;
+pub mod config;
+mod describe;
+pub mod exr;
+pub mod hdr;
+pub mod json;
+pub mod metadata;
+pub mod png;
+
+pub use atomic::{check_writable, write_atomically};
+pub use config::Config;
+pub use describe::describe;
+pub use metadata::Metadata;
+
+use crate::error::{Error, Result};
+use crate::probe::{Probe, Projection};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+use std::str::FromStr;
+
+/// Whether and how an EXR file uses half floats, which end at 65504: the Sun's disc is brighter. They also have no more than
+/// a few steps below 1e-6: a dark night needs float32.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Half {
+    /// Float32.
+    #[default]
+    Off,
+    /// Half floats; a pixel over 65504 is an error.
+    Refuse,
+    /// Half floats; if a pixel is over 65504, all are multiplied by a power of two, which the header states as `skyprobe.pixel_scale`
+    /// and in its comments. [`exr::half_scale`] tells it beforehand.
+    Scale,
+}
+
+impl FromStr for Half {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        match text {
+            "off" => Ok(Self::Off),
+            "refuse" => Ok(Self::Refuse),
+            "scale" => Ok(Self::Scale),
+            _ => Err(Error::input("half", format!("{text:?}"), "off, refuse or scale")),
+        }
+    }
+}
+
+/// Choices that belong to the file rather than to the light.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FileOptions {
+    /// Half floats in EXR files.
+    pub half: Half,
+    /// Exposure of a PNG relative to the automatic one [stops], -20 to 20.
+    pub exposure_stops: f64,
+}
+
+/// A kind of file, by the suffix of its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// OpenEXR.
+    Exr,
+    /// Radiance RGBE.
+    Hdr,
+    /// Tone-mapped, to look at.
+    Png,
+}
+
+impl Format {
+    /// The format that the suffix of `path` names: `.exr`, `.hdr` or `.png`, in either case.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for the parameter `output`.
+    pub fn of(path: &Path) -> Result<Self> {
+        let suffix = path.extension().map(|suffix| suffix.to_string_lossy().to_ascii_lowercase());
+        match suffix.as_deref() {
+            Some("exr") => Ok(Self::Exr),
+            Some("hdr") => Ok(Self::Hdr),
+            Some("png") => Ok(Self::Png),
+            _ => Err(Error::input("output", path.display(), "the name of a file that ends in .exr, .hdr or .png")),
+        }
+    }
+}
+
+/// Checks before any work that [`save`] can write to `path`: a known suffix, a folder that can be written to.
+///
+/// # Errors
+/// [`Error::Input`] for an unknown suffix, [`Error::File`] for a place that cannot be written to.
+pub fn check_output(path: impl AsRef<Path>) -> Result<()> {
+    Format::of(path.as_ref())?;
+    check_writable(path.as_ref())
+}
+
+/// Writes `probe` to `path` in the format that its suffix names, whole or not at all.
+///
+/// # Errors
+/// [`Error::Input`] for an unknown suffix, options out of range, or pixels that half floats cannot hold; [`Error::File`].
+pub fn save(path: impl AsRef<Path>, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
+    let path = path.as_ref();
+    let format = Format::of(path)?;
+    crate::error::check_range("exposure_stops", options.exposure_stops, -20.0, 20.0, "stops")?;
+    probe.validate()?;
+    write_atomically(path, |file| match format {
+        Format::Exr => exr::write(file, path, probe, options.half, metadata),
+        Format::Hdr => hdr::write(file, path, probe, metadata),
+        Format::Png => png::write(file, path, probe, options.exposure_stops),
+    })
+}
+
+/// Name and value of what the headers of all formats say about a probe.
+fn own_fields(probe: &Probe, metadata: &Metadata) -> Vec<(String, String)> {
+    let settings = &probe.settings;
+    let mut fields = vec![
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("projection", settings.projection.name().to_owned()),
+        ("extent", settings.extent.name().to_owned()),
+        ("ground", settings.ground.name().to_owned()),
+        ("sun_disc", settings.sun_disc.to_string()),
+        ("scale", settings.scale.name().to_owned()),
+        ("color_space", settings.color_space.name().to_owned()),
+    ];
+    if settings.projection == Projection::LatLong {
+        fields.push(("rows", settings.rows.name().to_owned()));
+    }
+    for (name, value) in [("sun_altitude_deg", metadata.sun_altitude_deg), ("sun_azimuth_deg", metadata.sun_azimuth_deg)] {
+        if let Some(value) = value {
+            fields.push((name, format!("{value:.6}")));
+        }
+    }
+    if let Some(config) = &metadata.config_json {
+        fields.push(("config", config.clone()));
+    }
+    fields.into_iter().map(|(name, value)| (format!("skyprobe.{name}"), value)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::probe::ProbeSettings;
+
+    pub(super) fn gradient(settings: ProbeSettings) -> Probe {
+        let count = 3 * settings.width * settings.height();
+        Probe::new((0..count).map(|k| 0.01 + (k % 977) as f32 * 0.37).collect(), settings).unwrap()
+    }
+
+    #[test]
+    fn suffixes_choose_and_unknown_ones_are_refused() {
+        for (name, format) in [("a.exr", Format::Exr), ("b.HDR", Format::Hdr), ("c.d.png", Format::Png)] {
+            assert_eq!(Format::of(Path::new(name)).unwrap(), format);
+        }
+        for name in ["sky", "sky.jpg", ".exr", ""] {
+            assert!(Format::of(Path::new(name)).unwrap_err().to_string().starts_with("output = "), "{name}");
+        }
+    }
+
+    #[test]
+    fn every_format_is_written_and_read_by_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let probe = gradient(ProbeSettings { width: 64, ..Default::default() });
+        for name in ["sky.exr", "sky.hdr", "sky.png"] {
+            let path = folder.path().join(name);
+            check_output(&path).unwrap();
+            save(&path, &probe, &FileOptions::default(), &Metadata::default()).unwrap();
+            assert!(std::fs::metadata(&path).unwrap().len() > 100);
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
+        let png = image::open(folder.path().join("sky.png")).unwrap().to_rgb8();
+        assert_eq!(png.dimensions(), (64, 32));
+    }
+
+    #[test]
+    fn bad_options_leave_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let probe = gradient(ProbeSettings { width: 64, ..Default::default() });
+        let options = FileOptions { exposure_stops: f64::NAN, ..Default::default() };
+        assert!(save(folder.path().join("a.png"), &probe, &options, &Metadata::default()).is_err());
+        assert!(save(folder.path().join("a.txt"), &probe, &FileOptions::default(), &Metadata::default()).is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

@@ -1,0 +1,39 @@
+//! The light of the sky for a place, a time and a state of the air: spectral, physically based, as a high dynamic range light probe.
+//!
+//! ```text
+//! place, time ──> ephemeris ──> directions and sizes of the bodies
+//! air ──> atmosphere (optical profile) ──> light: solve ──> light field      (once for one air)
+//! light field + directions + observer ──> light: gather ──> sky ──> probe ──> io: EXR, HDR, PNG
+//! ```
+//!
+//! Data flows one way: a folder knows nothing of what comes after it.
+//!
+//! # Conventions
+//! - Directions are unit vectors in the local frame x = east, y = north, z = up. Azimuth in degrees from north through east,
+//!   altitude in degrees above the horizon.
+//! - SI units; wavelengths in nm; angles in degrees where a name ends in `_deg`, in radians elsewhere.
+//! - Spectral radiance in W m-2 sr-1 nm-1. Illuminance and luminance use the CIE 1931 observer.
+//! - Latitude-longitude images: row 0 at the zenith, column u = 1/4 + azimuth / 360 of the width.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod atmosphere;
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod ephemeris;
+pub mod error;
+pub mod io;
+pub mod light;
+pub mod probe;
+pub mod progress;
+#[cfg(feature = "python")]
+mod python;
+pub mod quality;
+pub mod sky;
+pub mod spectrum;
+pub mod time;
+pub mod units;
+
+pub use error::{Error, Result};
+pub use progress::Progress;

@@ -1,0 +1,122 @@
+//! The grid of the solve: altitude levels, solar zenith angles, and directions at each level.
+
+use super::axis::Axis;
+use super::gauss;
+use super::zenith_axis::ZenithAxis;
+use crate::quality::Numbers;
+use std::f64::consts::{PI, TAU};
+
+/// Where the light field is known.
+pub struct Grid {
+    /// Altitude levels [km], dense near the ground.
+    pub altitudes: Axis,
+    /// Every other level [km]: steps of rays end there, and hold two points each.
+    pub shells: Axis,
+    /// Solar zenith angles, dense around the terminator.
+    pub zeniths: ZenithAxis,
+    /// Sine and cosine of the solar zenith angles.
+    pub sun: Vec<(f64, f64)>,
+    radius: f64,
+}
+
+/// An azimuth on half the circle.
+#[derive(Clone, Copy, Debug)]
+pub struct Azimuth {
+    /// Azimuth from the Sun [radians].
+    pub angle: f64,
+    /// Cosine of the azimuth from the Sun.
+    pub cosine: f64,
+    /// Sine of the azimuth from the Sun.
+    pub sine: f64,
+    /// What it counts in an integral over the whole circle [radians].
+    pub weight: f64,
+}
+
+/// `count` azimuths that integrate over the circle a function even in azimuth.
+pub fn azimuths(count: usize) -> Vec<Azimuth> {
+    (0..count)
+        .map(|q| {
+            let angle = (q as f64 + 0.5) * PI / count as f64;
+            let (sine, cosine) = angle.sin_cos();
+            Azimuth { angle, cosine, sine, weight: TAU / count as f64 }
+        })
+        .collect()
+}
+
+/// Matrix (to, from) that takes a function even in azimuth from its values at `from` to values at `to`: the cosine series through them.
+pub fn azimuth_interpolation(from: &[Azimuth], to: &[Azimuth]) -> Vec<f32> {
+    let n = from.len();
+    let series = |a: f64, b: f64| (1..n).map(|m| 2.0 * (m as f64 * a).cos() * (m as f64 * b).cos()).sum::<f64>() + 1.0;
+    to.iter().flat_map(|t| from.iter().map(move |f| (series(t.angle, f.angle) / n as f64) as f32)).collect()
+}
+
+impl Grid {
+    /// The grid of a quality level for air that ends at `top` [km] over ground of `radius` [km].
+    pub fn new(numbers: &Numbers, radius: f64, top: f64) -> Self {
+        let last = (numbers.altitudes - 1) as f64;
+        let levels: Vec<f64> = (0..numbers.altitudes).map(|i| top * (i as f64 / last).powf(2.2)).collect();
+        let mut shells: Vec<f64> = levels.iter().copied().step_by(2).collect();
+        if shells.last() != levels.last() {
+            shells.push(top);
+        }
+        let (altitudes, shells) = (Axis::new(levels), Axis::new(shells));
+        let zeniths = ZenithAxis::new(numbers.solar_zenith_angles);
+        let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
+        Self { altitudes, shells, zeniths, sun, radius }
+    }
+
+    /// View zenith cosines with their weights for each level; `nodes` rising, between the horizontal and the horizon, and to the ground.
+    pub fn directions(&self, nodes: [usize; 3]) -> Vec<Vec<(f64, f64)>> {
+        self.altitudes.nodes().iter().map(|&z| directions(nodes, self.radius, z)).collect()
+    }
+}
+
+/// Zenith cosines and weights over -1..1 in three bands that each hold a smooth radiance: rising rays, rays
+/// between the horizontal and the local horizon, and rays to the ground. Nodes crowd where the radiance changes fastest.
+fn directions([rising, limb, ground]: [usize; 3], radius: f64, altitude: f64) -> Vec<(f64, f64)> {
+    let ratio = radius / (radius + altitude);
+    let horizon = -(1.0 - ratio * ratio).max(0.0).sqrt();
+    let mut nodes = Vec::new();
+    let on_the_ground = altitude <= 0.0;
+    let rising = if on_the_ground { rising + limb / 2 } else { rising };
+    nodes.extend(gauss::legendre(rising).into_iter().map(|(t, w)| (t * t, 2.0 * t * w)));
+    if !on_the_ground {
+        nodes.extend(
+            gauss::legendre(limb).into_iter().map(|(t, w)| (horizon * (1.0 - t * t.sqrt()), -horizon * 1.5 * t.sqrt() * w)),
+        );
+    }
+    nodes.extend(
+        gauss::legendre(ground).into_iter().map(|(t, w)| (horizon - (1.0 + horizon) * t * t, (1.0 + horizon) * 2.0 * t * w)),
+    );
+    nodes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_cover_the_sphere() {
+        for altitude in [0.0, 0.01, 3.0, 100.0] {
+            let nodes = directions([8, 6, 4], 6371.0, altitude);
+            let solid: f64 = nodes.iter().map(|(_, w)| w).sum();
+            let first: f64 = nodes.iter().map(|(mu, w)| mu * w).sum();
+            let second: f64 = nodes.iter().map(|(mu, w)| mu * mu * w).sum();
+            assert!(
+                (solid - 2.0).abs() < 2e-3 && first.abs() < 2e-3 && (second - 2.0 / 3.0).abs() < 2e-3,
+                "{altitude}: {solid} {first} {second}"
+            );
+        }
+    }
+
+    #[test]
+    fn azimuth_interpolation_is_exact_for_low_frequencies() {
+        let (from, to) = (azimuths(5), azimuths(9));
+        let matrix = azimuth_interpolation(&from, &to);
+        let f = |a: &Azimuth| 1.0 + 0.3 * a.cosine - 0.2 * (4.0 * a.angle).cos();
+        for (t, row) in to.iter().zip(matrix.chunks(5)) {
+            let value: f64 = row.iter().zip(&from).map(|(&w, a)| f64::from(w) * f(a)).sum();
+            assert!((value - f(t)).abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Light transport: solve once for an air, gather for any Sun, observer and direction.
+//!
+//! The air is spherically symmetric and sunlight is parallel, so light is symmetric about the axis from the planet's centre to the Sun: where a point is
+//! needs two numbers, its altitude and its solar zenith angle. [`LightField::solve`] finds the light scattered any number of times on
+//! a grid of these two, as moments of the radiance over direction (`solve`, `source`). [`LightField::gather`] marches a view ray, adds what the Sun's direct
+//! light scatters once (`single`, `sunlight`: exact) and what the solved light scatters into the ray, and the lit ground at its end.
+//! A change of time, place or height needs gathers only.
+//!
+//! Bottom up: `lanes` (blocks of wavelengths), `axis`, `zenith_axis`, `gauss`, `harmonics` (mathematics), `air` (one block of a profile), `ray`
+//! (steps through the shells), `sunlight`, `single`, `grid`, `source`, `anderson`, `solve`, `field`. [`PathTracer`] judges them all: slow, simple, unbiased.
+//!
+//! Light is a scalar here. Polarised light has its place: a field's moments at a node become the moments of I and the four numbers of the
+//! coherency tensor, and a ray's sums those of I, Q and U, with the same grid, rays and interpolation.
+
+// Loops over lanes index several blocks at once: the plain form is what the compiler vectorises and what a reader follows.
+#![allow(clippy::needless_range_loop)]
+
+mod air;
+mod anderson;
+mod axis;
+mod field;
+pub mod gauss;
+mod grid;
+mod harmonics;
+mod lanes;
+pub mod path_tracer;
+mod ray;
+mod single;
+mod solve;
+mod source;
+mod sunlight;
+mod zenith_axis;
+
+pub use axis::Axis;
+pub use field::{Gathered, LightField, Observer};
+pub use path_tracer::{Estimate, PathTracer};

@@ -1,0 +1,24 @@
+//! Images of the full sphere: the only place where pixels become directions.
+//!
+//! [`render`] asks a [`SkyLight`](crate::sky::SkyLight) for its light and gives a [`Probe`]: every pixel the mean radiance of
+//! its footprint, discs with their exact irradiance at every resolution.
+
+mod disc;
+mod disc_scan;
+mod fisheye;
+mod grid;
+mod image;
+mod latlong;
+mod moments;
+mod quadrature;
+mod render;
+mod settings;
+#[cfg(test)]
+mod tests;
+
+pub use fisheye::Fisheye;
+pub use grid::{Footprint, Grid};
+pub use image::Probe;
+pub use latlong::{LatLong, Row};
+pub use render::render;
+pub use settings::{Extent, GroundView, MAX_WIDTH, MIN_WIDTH, ProbeSettings, Projection, Rows};

@@ -1,0 +1,264 @@
+//! Probes of skies whose light is known in closed form.
+
+use super::latlong::direction;
+use super::*;
+use crate::progress::Progress;
+use crate::sky::{Disc, SkyLight};
+use crate::spectrum::{ColorSpace, Gamut};
+use crate::units::Scale;
+use glam::DVec3;
+use proptest::prelude::*;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A sky whose radiance is a function of altitude and azimuth.
+struct Analytic<F> {
+    radiance: F,
+    horizon: f64,
+    discs: Vec<Disc>,
+}
+
+impl<F: Fn(f64, f64) -> f64 + Sync> SkyLight for Analytic<F> {
+    fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
+        for (out, &azimuth) in out.iter_mut().zip(azimuths) {
+            *out = [(self.radiance)(altitude, azimuth) as f32; 3];
+        }
+    }
+
+    fn horizon_altitude(&self) -> f64 {
+        self.horizon
+    }
+
+    fn discs(&self) -> Vec<Disc> {
+        self.discs.clone()
+    }
+}
+
+fn sky<F: Fn(f64, f64) -> f64 + Sync>(radiance: F) -> Analytic<F> {
+    Analytic { radiance, horizon: 0.0, discs: Vec::new() }
+}
+
+fn sun(theta: f64, azimuth: f64) -> Disc {
+    Disc {
+        direction: direction(theta, azimuth),
+        horizontal_radius: 0.00465,
+        vertical_radius: 0.00465,
+        irradiance: [1.1, 1.0, 0.9],
+        limb_darkening: [[0.45, 0.2], [0.5, 0.2], [0.6, 0.25]],
+    }
+}
+
+fn settings(width: usize, rows: Rows) -> ProbeSettings {
+    ProbeSettings { width, rows, color_space: ColorSpace::Xyz, gamut: Gamut::Keep, ..Default::default() }
+}
+
+fn made(sky: &dyn SkyLight, settings: &ProbeSettings) -> Probe {
+    render(sky, settings, &Progress::silent()).unwrap()
+}
+
+fn upward(sky: &dyn SkyLight, settings: &ProbeSettings) -> f64 {
+    made(sky, settings).irradiance(DVec3::Z)[1]
+}
+
+#[test]
+fn the_horizontal_plane_gets_the_light_of_the_sky_at_every_width() {
+    // Integrals over the upper hemisphere in closed form; c is the cosine of the zenith angle.
+    type Case = (fn(f64, f64) -> f64, f64, &'static str);
+    let cases: [Case; 4] = [
+        (|_, _| 1.0, PI, "uniform"),
+        (|altitude, _| 1.0 + 2.0 * altitude.sin().powi(2), 2.0 * PI, "1 + 2 c^2"),
+        (|altitude, azimuth| (1.0 + altitude.cos() * azimuth.sin()).max(0.0), PI, "1 + x"),
+        (
+            |altitude, _| 1.0 / (altitude.sin().abs() + 0.15),
+            2.0 * PI * (1.0 - 0.15 * (1.15_f64 / 0.15).ln()),
+            "brightens sevenfold to the horizon",
+        ),
+    ];
+    for (radiance, expected, name) in cases {
+        for width in [64, 66, 128, 512, 4096] {
+            for rows in [Rows::Centre, Rows::Corner] {
+                let found = upward(&sky(radiance), &settings(width, rows));
+                assert!((found / expected - 1.0).abs() < 1e-5, "{name} {width} {rows:?}: {found} is not {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_jump_at_the_horizon_stays_where_it_is() {
+    for horizon_deg in [0.0_f64, -0.5, -1.8, -7.0] {
+        let horizon = horizon_deg.to_radians();
+        let light = Analytic {
+            radiance: move |altitude: f64, _| if altitude >= horizon { 3.0 } else { 0.25 },
+            horizon,
+            discs: Vec::new(),
+        };
+        // A plane facing down sees sky between the horizontal plane and the horizon, and ground below.
+        let band = PI * horizon.sin().powi(2);
+        let down = 3.0 * band + 0.25 * (PI - band);
+        for width in [64, 512, 4096] {
+            let probe = made(&light, &settings(width, Rows::Centre));
+            assert!((probe.irradiance(DVec3::Z)[1] / (3.0 * PI) - 1.0).abs() < 1e-3);
+            let found = probe.irradiance(-DVec3::Z)[1];
+            assert!((found / down - 1.0).abs() < 3e-2 * (64.0 / width as f64), "{horizon_deg} {width}: {found} is not {down}");
+        }
+        let dark = ProbeSettings { ground: GroundView::Off, ..settings(512, Rows::Centre) };
+        let probe = made(&light, &dark);
+        assert_eq!((probe.pixel(7, 127), probe.pixel(7, 128 + 12)), ([3.0; 3], [0.0; 3]));
+        let total: f64 = LatLong::new(512, Rows::Centre, Extent::Full)
+            .table()
+            .iter()
+            .enumerate()
+            .map(|(row, found)| 512.0 * found.solid_angle * f64::from(probe.pixel(0, row)[1]))
+            .sum();
+        let expected = 3.0 * 2.0 * PI * (1.0 - horizon.sin());
+        assert!((total / expected - 1.0).abs() < 1e-6, "{total} is not {expected}");
+    }
+}
+
+#[test]
+fn mirrored_ground_is_the_sky_flipped_and_the_upper_half_is_the_upper_half() {
+    let light = sky(|altitude, azimuth| if altitude >= 0.0 { 2.0 + altitude + azimuth.cos() } else { 0.1 });
+    for rows in [Rows::Centre, Rows::Corner] {
+        for width in [64, 66, 2048] {
+            let mirrored = made(&light, &ProbeSettings { ground: GroundView::Mirrored, ..settings(width, rows) });
+            for row in 0..mirrored.height {
+                assert_eq!(mirrored.pixel(5, row), mirrored.pixel(5, mirrored.height - 1 - row));
+            }
+            let (up, down) = (mirrored.irradiance(DVec3::Z)[1], mirrored.irradiance(-DVec3::Z)[1]);
+            assert!((up / down - 1.0).abs() < 1e-6, "{up} {down}");
+        }
+    }
+    let full = made(&light, &settings(2048, Rows::Centre));
+    let upper = made(&light, &ProbeSettings { extent: Extent::Upper, ..settings(2048, Rows::Centre) });
+    assert_eq!((upper.width, upper.height), (2048, 512));
+    assert_eq!(upper.pixels[..], full.pixels[..upper.pixels.len()]);
+}
+
+/// Worst relative error over the channels of the vector sum of the drawn disc and of what the horizontal plane gets. Where rows on both sides of
+/// that plane share the disc, its height in the vector sum is left out (see `disc`).
+fn disc_error(theta: f64, azimuth: f64, settings: &ProbeSettings) -> f64 {
+    let disc = sun(theta, azimuth);
+    let grid = Grid::new(settings);
+    let (mut vector, mut upward) = ([DVec3::ZERO; 3], [0.0; 3]);
+    for (column, row, energy) in super::disc::draw(&disc, -0.2, &grid).pixels() {
+        let footprint = grid.footprint(column, row);
+        for channel in 0..3 {
+            vector[channel] += energy[channel] * footprint.mean_direction;
+            upward[channel] += energy[channel] * footprint.mean_upward;
+        }
+    }
+    let pixel = grid.reach() / settings.height() as f64;
+    let shared = if settings.rows == Rows::Corner {
+        1.5 * pixel
+    } else if settings.height() % 2 == 1 {
+        pixel
+    } else {
+        0.5 * pixel
+    } + 0.02 * pixel
+        + 0.005;
+    (0..3)
+        .map(|channel| {
+            let expected = disc.irradiance[channel] * disc.direction;
+            let missed = vector[channel] - expected;
+            let missed = if (theta - FRAC_PI_2).abs() < shared { missed.truncate().length() } else { missed.length() };
+            let plane = if theta < FRAC_PI_2 - 0.005 { (upward[channel] - expected.z).abs() } else { 0.0 };
+            missed.max(plane) / disc.irradiance[channel]
+        })
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_probe_holds_its_disc_once_or_not_at_all() {
+    let disc = sun(0.9, 2.0);
+    let light = Analytic { radiance: |_: f64, _: f64| 0.1, horizon: 0.0, discs: vec![disc.clone()] };
+    for width in [64, 512] {
+        for projection in [Projection::LatLong, Projection::Fisheye] {
+            let with = ProbeSettings { projection, scale: Scale::Luminance, ..settings(width, Rows::Centre) };
+            let without = ProbeSettings { sun_disc: false, ..with.clone() };
+            let (with, without) = (made(&light, &with).irradiance(DVec3::Z)[1], made(&light, &without).irradiance(DVec3::Z)[1]);
+            let expected = 683.0 * disc.direction.z;
+            assert!(((with - without) / expected - 1.0).abs() < 1e-4, "{width} {projection:?}: {} {expected}", with - without);
+        }
+    }
+}
+
+#[test]
+fn discs_light_rightly_at_awkward_places() {
+    let places = [
+        (0.0, 0.0),
+        (0.001, 1.0),
+        (0.004, 2.0),
+        (0.006, 3.0),
+        (0.05, 0.3),
+        (0.0981747, 1.0),
+        (0.4, -FRAC_PI_2),
+        (0.4, -FRAC_PI_2 + 1e-4),
+        (1.0, PI),
+        (FRAC_PI_2 - 0.005, 1.2),
+        (FRAC_PI_2 - 0.03, 0.0),
+        (FRAC_PI_2 - 0.06, -2.0),
+        (FRAC_PI_2 + 0.08, 0.5),
+    ];
+    for width in [64, 66, 512, 4096, 16384] {
+        for rows in [Rows::Centre, Rows::Corner] {
+            for (theta, azimuth) in places {
+                let error = disc_error(theta, azimuth, &settings(width, rows));
+                assert!(error < 1e-4, "{width} {rows:?} theta {theta} azimuth {azimuth}: {error:.1e}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+    #[test]
+    fn discs_light_rightly_everywhere(size in 0usize..4, corner: bool, azimuth in -PI..PI, cosine in -0.15f64..1.0) {
+        let rows = if corner { Rows::Corner } else { Rows::Centre };
+        let error = disc_error(cosine.acos(), azimuth, &settings([64, 512, 2048, 4096][size], rows));
+        prop_assert!(error < 1e-4, "{error:.1e}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+    #[test]
+    fn fisheye_discs_light_rightly(size in 0usize..3, full: bool, azimuth in -PI..PI, theta in 0.0..1.45f64) {
+        let extent = if full { Extent::Full } else { Extent::Upper };
+        let settings = ProbeSettings { projection: Projection::Fisheye, extent, ..settings([64, 512, 2048][size], Rows::Centre) };
+        let error = disc_error(theta, azimuth, &settings);
+        prop_assert!(error < 1e-4, "{error:.1e}");
+    }
+}
+
+#[test]
+fn a_cancelled_render_gives_nothing() {
+    let stop = |_: &str, fraction: f64| fraction < 0.5;
+    let result = render(&sky(|_, _| 1.0), &settings(64, Rows::Centre), &Progress::new(&stop));
+    assert!(matches!(result, Err(crate::Error::Cancelled)));
+}
+
+#[test]
+fn the_disc_is_round_sharp_and_darker_at_its_limb_when_pixels_are_small() {
+    // 0.00465 rad are 12.1 pixels at 16384.
+    let disc = sun(FRAC_PI_2 - 0.4, 0.3);
+    let grid = Grid::new(&settings(16384, Rows::Centre));
+    let centre = disc.direction;
+    let radiance = |column: usize, row: usize, energy: f64| energy / grid.footprint(column, row).solid_angle;
+    let (mut brightest, mut limb, mut outside) = (0.0_f64, f64::MAX, 0.0_f64);
+    for (column, row, energy) in super::disc::draw(&disc, 0.0, &grid).pixels() {
+        let distance = grid.footprint(column, row).mean_direction.normalize().angle_between(centre) / 0.00465;
+        let value = radiance(column, row, energy[1]);
+        brightest = brightest.max(value);
+        if (0.85..0.9).contains(&distance) {
+            limb = limb.min(value);
+        }
+        if distance > 1.12 {
+            outside = outside.max(value);
+        }
+    }
+    // Relative brightness at 0.9 of the radius: m = 0.436; the mean over the disc is 0.8.
+    let expected = 1.0 / (0.8 * PI * 0.00465_f64.powi(2));
+    assert!((brightest / expected - 1.0).abs() < 0.01, "{brightest} {expected}");
+    assert!((limb / brightest - 0.66).abs() < 0.06, "{}", limb / brightest);
+    assert!(outside < 0.02 * brightest, "{}", outside / brightest);
+}

@@ -1,0 +1,306 @@
+//! `Atmosphere`, `Component`, `Phase`.
+
+use super::arrays;
+use super::errors::InputError;
+use super::work;
+use crate::atmosphere::{self, AirParameters, Ground, OpticalProfile};
+use crate::quality::Quality;
+use crate::sky;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// The state of the air. It is solved on first use, once, and can be shared by any number of skies and threads.
+///
+/// What is left out comes from the preset. At most one of ``aod550``, ``turbidity`` and ``visibility_km`` is given.
+///
+/// Parameters
+/// ----------
+/// preset
+///     Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic" or "thesis".
+/// aerosol
+///     Kind of haze: "none", "continental_clean", "continental_average", "continental_polluted", "urban", "maritime_clean",
+///     "desert", "antarctic" or "thesis".
+/// aod550
+///     Vertical optical depth of the haze at 550 nm, 0 to 10.
+/// turbidity
+///     Optical depth of haze and molecules over that of the molecules at 550 nm, 1 (pure air) to 64.
+/// visibility_km
+///     Horizontal visibility at the ground, from 1. [km]
+/// ozone_du
+///     Ozone column, 0 to 1000. [Dobson units]
+/// ground
+///     "grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt", or one albedo from 0 to 1.
+/// angstrom_exponent
+///     Replaces the spectral slope of the haze's extinction, -1 to 4.
+/// single_scattering_albedo
+///     Replaces the haze's single scattering albedo, 0 to 1.
+/// asymmetry
+///     Replaces the haze's asymmetry parameter, -0.99 to 0.99.
+/// aerosol_scale_height_km
+///     Replaces the haze's scale height, 0.1 to 20. [km]
+/// standard_atmosphere
+///     Profile of temperature and density, such as "us_standard_1976" or "tropical".
+/// surface_pressure_hpa
+///     Pressure at the ground, 100 to 1100. [hPa]
+/// quality
+///     "draft", "standard", "high" or "reference".
+/// polarisation
+///     Whether polarisation is followed; must be False in this version.
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Atmosphere {
+    pub inner: Arc<sky::Atmosphere>,
+}
+
+#[pymethods]
+impl Atmosphere {
+    #[new]
+    #[pyo3(signature = (*, preset = "clear", aerosol = None, aod550 = None, turbidity = None, visibility_km = None,
+        ozone_du = None, ground = None, angstrom_exponent = None, single_scattering_albedo = None, asymmetry = None,
+        aerosol_scale_height_km = None, standard_atmosphere = None, surface_pressure_hpa = None,
+        quality = "standard", polarisation = false))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn new(
+        preset: &str,
+        aerosol: Option<&str>,
+        aod550: Option<f64>,
+        turbidity: Option<f64>,
+        visibility_km: Option<f64>,
+        ozone_du: Option<f64>,
+        ground: Option<&Bound<'_, PyAny>>,
+        angstrom_exponent: Option<f64>,
+        single_scattering_albedo: Option<f64>,
+        asymmetry: Option<f64>,
+        aerosol_scale_height_km: Option<f64>,
+        standard_atmosphere: Option<&str>,
+        surface_pressure_hpa: Option<f64>,
+        quality: &str,
+        polarisation: bool,
+    ) -> PyResult<Self> {
+        let air = AirParameters {
+            preset: preset.parse()?,
+            aerosol: aerosol.map(str::parse).transpose()?,
+            aod550,
+            turbidity,
+            visibility_km,
+            ozone_du,
+            ground: ground.map(read_ground).transpose()?,
+            angstrom_exponent,
+            single_scattering_albedo,
+            asymmetry,
+            aerosol_scale_height_km,
+            standard_atmosphere: standard_atmosphere.map(str::parse).transpose()?,
+            surface_pressure_hpa,
+        };
+        let inner = sky::Atmosphere::new(&air, quality.parse::<Quality>()?, polarisation)?;
+        Ok(Self { inner: Arc::new(inner) })
+    }
+
+    /// An air given in full: another code's, or another planet's. Coefficients are linear between the altitudes.
+    ///
+    /// Parameters
+    /// ----------
+    /// altitudes_km
+    ///     Ascending from 0, shape (Z,); the last is the top of the air. [km]
+    /// wavelengths_nm
+    ///     Ascending, shape (W,). [nm]
+    /// components
+    ///     What the air is made of.
+    /// solar_irradiance
+    ///     At the top of the air at 1 au, shape (W,) or a number. [W m-2 nm-1]
+    /// ground_albedo
+    ///     Lambertian, 0 to 1, shape (W,) or a number. Default 0.
+    /// planet_radius_km
+    ///     Radius of the ground. [km]
+    /// sun_angular_radius_deg
+    ///     Angular radius of the Sun's disc. [degrees]
+    /// quality
+    ///     "draft", "standard", "high" or "reference".
+    /// polarisation
+    ///     Whether polarisation is followed; must be False in this version.
+    #[staticmethod]
+    #[pyo3(signature = (altitudes_km, wavelengths_nm, components, *, solar_irradiance, ground_albedo = None,
+        planet_radius_km = 6371.0, sun_angular_radius_deg = 0.2664, quality = "standard", polarisation = false))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn from_profile(
+        altitudes_km: &Bound<'_, PyAny>,
+        wavelengths_nm: &Bound<'_, PyAny>,
+        components: Vec<PyRef<'_, Component>>,
+        solar_irradiance: &Bound<'_, PyAny>,
+        ground_albedo: Option<&Bound<'_, PyAny>>,
+        planet_radius_km: f64,
+        sun_angular_radius_deg: f64,
+        quality: &str,
+        polarisation: bool,
+    ) -> PyResult<Self> {
+        let altitudes_km = arrays::vector("altitudes_km", altitudes_km)?;
+        let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
+        let (rows, columns) = (altitudes_km.len(), wavelengths_nm.len());
+        let components = components
+            .iter()
+            .enumerate()
+            .map(|(index, component)| component.with_shape(index, rows, columns))
+            .collect::<PyResult<Vec<_>>>()?;
+        let profile = OpticalProfile {
+            altitudes_km,
+            wavelengths_nm,
+            components,
+            ground_albedo: match ground_albedo {
+                Some(albedo) => arrays::vector_or_number("ground_albedo", albedo, columns)?,
+                None => vec![0.0; columns],
+            },
+            solar_irradiance: arrays::vector_or_number("solar_irradiance", solar_irradiance, columns)?,
+            planet_radius_km,
+            sun_angular_radius_deg,
+        };
+        let inner = sky::Atmosphere::from_profile(profile, quality.parse::<Quality>()?, polarisation)?;
+        Ok(Self { inner: Arc::new(inner) })
+    }
+
+    /// Solve the light now instead of on first use. Solving twice costs nothing.
+    #[pyo3(signature = (progress = None))]
+    fn solve(&self, py: Python<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        work::run(py, progress, |progress| self.inner.solve(progress))
+    }
+
+    /// Name of the quality level.
+    #[getter]
+    fn quality(&self) -> PyResult<String> {
+        Ok(name_of(&self.inner.quality()))
+    }
+
+    /// Altitudes of the optical profile, shape (Z,). [km]
+    #[getter]
+    fn altitudes_km<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.inner.profile().altitudes_km)
+    }
+
+    /// Wavelengths of the optical profile, shape (W,). [nm]
+    #[getter]
+    fn wavelengths_nm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.inner.profile().wavelengths_nm)
+    }
+}
+
+/// The ground by name or as an albedo.
+fn read_ground(ground: &Bound<'_, PyAny>) -> PyResult<Ground> {
+    if let Ok(name) = ground.extract::<String>() {
+        // A number is a number only without quotes.
+        return Ok(Ground::Surface(name.parse()?));
+    }
+    match ground.extract::<f64>() {
+        Ok(albedo) => Ok(Ground::Albedo(albedo)),
+        Err(_) => {
+            Err(InputError::new_err(format!("ground = {ground}: must be a name such as \"grass\" or an albedo from 0 to 1")))
+        }
+    }
+}
+
+/// The name that users write for a value of an enumeration.
+pub fn name_of<T: serde::Serialize>(value: &T) -> String {
+    serde_json::to_value(value).ok().and_then(|name| name.as_str().map(str::to_string)).unwrap_or_default()
+}
+
+/// One kind of particle or gas of an explicit profile.
+///
+/// Parameters
+/// ----------
+/// scattering, absorption
+///     Coefficients, shape (Z, W): altitudes, wavelengths. [1/km]
+/// phase
+///     Phase function; None for a component that only absorbs.
+/// name
+///     Name for messages.
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Component {
+    name: Option<String>,
+    scattering: arrays::Values,
+    absorption: arrays::Values,
+    phase: Option<atmosphere::Phase>,
+}
+
+#[pymethods]
+impl Component {
+    #[new]
+    #[pyo3(signature = (*, scattering, absorption, phase, name = None))]
+    fn new(
+        scattering: &Bound<'_, PyAny>,
+        absorption: &Bound<'_, PyAny>,
+        phase: Option<PyRef<'_, Phase>>,
+        name: Option<String>,
+    ) -> PyResult<Self> {
+        Ok(Self {
+            name,
+            scattering: arrays::floats("scattering", scattering)?,
+            absorption: arrays::floats("absorption", absorption)?,
+            phase: phase.map(|phase| phase.inner.clone()),
+        })
+    }
+}
+
+impl Component {
+    fn with_shape(&self, index: usize, rows: usize, columns: usize) -> PyResult<atmosphere::Component> {
+        let name = self.name.clone().unwrap_or_else(|| format!("components[{index}]"));
+        let check = |what: &str, array: &arrays::Values| arrays::expect_matrix(&format!("{name}.{what}"), array, rows, columns);
+        check("scattering", &self.scattering)?;
+        check("absorption", &self.absorption)?;
+        Ok(atmosphere::Component {
+            name,
+            scattering_per_km: self.scattering.values.clone(),
+            absorption_per_km: self.absorption.values.clone(),
+            phase: self.phase.clone(),
+        })
+    }
+}
+
+/// Where a scatterer sends the light: a phase function, normalised to 4 pi over the sphere.
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Phase {
+    inner: atmosphere::Phase,
+}
+
+#[pymethods]
+impl Phase {
+    /// Molecules.
+    ///
+    /// Parameters
+    /// ----------
+    /// depolarisation
+    ///     Depolarisation ratio of natural light, 0 to 1: one for each wavelength, or a number. Default 0.
+    #[staticmethod]
+    #[pyo3(signature = (depolarisation = None))]
+    fn rayleigh(depolarisation: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let depolarisation = match depolarisation {
+            None => vec![0.0],
+            Some(given) => arrays::number_or_vector("depolarisation", given)?,
+        };
+        for &ratio in &depolarisation {
+            crate::error::check_range("depolarisation", ratio, 0.0, 1.0, "")?;
+        }
+        Ok(Self { inner: atmosphere::Phase::Rayleigh { depolarisation } })
+    }
+
+    /// The function of Henyey and Greenstein (1941) with an asymmetry from -0.99 to 0.99.
+    #[staticmethod]
+    fn henyey_greenstein(asymmetry: f64) -> PyResult<Self> {
+        crate::error::check_range("asymmetry", asymmetry, -0.99, 0.99, "")?;
+        Ok(Self { inner: atmosphere::Phase::HenyeyGreenstein { asymmetry } })
+    }
+
+    /// The function of Cornette and Shanks (1992) with the parameter g from -0.99 to 0.99.
+    #[staticmethod]
+    fn cornette_shanks(asymmetry: f64) -> PyResult<Self> {
+        crate::error::check_range("asymmetry", asymmetry, -0.99, 0.99, "")?;
+        Ok(Self { inner: atmosphere::Phase::CornetteShanks { asymmetry } })
+    }
+
+    fn __repr__(&self) -> String {
+        match &self.inner {
+            atmosphere::Phase::Rayleigh { depolarisation } => format!("Phase.rayleigh(depolarisation={depolarisation:?})"),
+            atmosphere::Phase::HenyeyGreenstein { asymmetry } => format!("Phase.henyey_greenstein({asymmetry:?})"),
+            atmosphere::Phase::CornetteShanks { asymmetry } => format!("Phase.cornette_shanks({asymmetry:?})"),
+            #[allow(unreachable_patterns, reason = "kinds of particles that no argument can make")]
+            _ => "Phase".to_string(),
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The extension module `skyprobe._core`: arguments in, results out, no physics.
+//!
+//! The docstrings that a Python user reads are those of `python/skyprobe/_core.pyi` and of the classes' members here; names, units
+//! and defaults are the same on both sides, which the tests check.
+
+mod air;
+mod arrays;
+mod errors;
+mod probe;
+mod results;
+mod sky;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled part of skyprobe.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("InputError", py.get_type::<errors::InputError>())?;
+    module.add("DataError", py.get_type::<errors::DataError>())?;
+    module.add("Cancelled", py.get_type::<errors::Cancelled>())?;
+    module.add_class::<air::Atmosphere>()?;
+    module.add_class::<air::Component>()?;
+    module.add_class::<air::Phase>()?;
+    module.add_class::<sky::Sky>()?;
+    module.add_class::<probe::Probe>()?;
+    module.add_class::<results::Body>()?;
+    module.add_class::<results::SunEvents>()?;
+    module.add_class::<results::Irradiance>()?;
+    module.add_class::<results::Illuminance>()?;
+    #[cfg(feature = "cli")]
+    module.add_function(wrap_pyfunction!(run_command_line, module)?)?;
+    Ok(())
+}
+
+/// Run the command line tool with `arguments`, the first being the program's name, and return its exit code.
+#[cfg(feature = "cli")]
+#[pyfunction]
+fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| crate::cli::run(arguments))
+}

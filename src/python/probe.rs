@@ -1,0 +1,181 @@
+//! `Probe`.
+
+use super::arrays;
+use super::errors::InputError;
+use super::work;
+use crate::error::Result;
+use crate::io::{self, FileOptions, Half, Metadata};
+use crate::probe::{self, ProbeSettings};
+use glam::DVec3;
+use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A rendered image of the light from all directions.
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Probe {
+    settings: ProbeSettings,
+    metadata: Metadata,
+    pixels: Mutex<Pixels>,
+}
+
+/// The pixels stay with Rust until Python asks for them and then move into the array, without a copy in either case.
+enum Pixels {
+    Rendered(Arc<probe::Probe>),
+    Array(Py<PyArray3<f32>>),
+}
+
+impl Probe {
+    pub fn new(rendered: probe::Probe, metadata: Metadata) -> Self {
+        let settings = rendered.settings.clone();
+        Self { settings, metadata, pixels: Mutex::new(Pixels::Rendered(Arc::new(rendered))) }
+    }
+
+    /// The probe as Rust has it. Once Python holds the pixels it may write to them, so then it is a copy of them as they are.
+    fn snapshot(&self, py: Python<'_>) -> Result<Arc<probe::Probe>> {
+        // Never held while the interpreter is released, so that no thread can wait for the other.
+        match &*self.pixels.lock().unwrap_or_else(PoisonError::into_inner) {
+            Pixels::Rendered(probe) => Ok(probe.clone()),
+            Pixels::Array(array) => {
+                let values = array.bind(py).to_vec().map_err(|error| crate::Error::data(error.to_string()))?;
+                Ok(Arc::new(probe::Probe::new(values, self.settings.clone())?))
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Probe {
+    /// The pixels, linear, shape (H, W, 3): always the same array, not a copy. What is written to it is what ``save`` saves.
+    #[getter]
+    fn pixels(&self, py: Python<'_>) -> PyResult<Py<PyArray3<f32>>> {
+        let mut pixels = self.pixels.lock().unwrap_or_else(PoisonError::into_inner);
+        let array = match &mut *pixels {
+            Pixels::Array(array) => return Ok(array.clone_ref(py)),
+            Pixels::Rendered(probe) => {
+                let shape = [probe.height, probe.width, 3];
+                // Another thread may be saving it: only then it is copied.
+                let values = match Arc::get_mut(probe) {
+                    Some(probe) => std::mem::take(&mut probe.pixels),
+                    None => probe.pixels.clone(),
+                };
+                PyArray1::from_vec(py, values).reshape(shape)?.unbind()
+            }
+        };
+        *pixels = Pixels::Array(array.clone_ref(py));
+        Ok(array)
+    }
+
+    /// Width. [pixels]
+    #[getter]
+    fn width(&self) -> usize {
+        self.settings.width
+    }
+
+    /// Height. [pixels]
+    #[getter]
+    fn height(&self) -> usize {
+        self.settings.height()
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn projection(&self) -> &'static str {
+        self.settings.projection.name()
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn rows(&self) -> &'static str {
+        self.settings.rows.name()
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn extent(&self) -> &'static str {
+        self.settings.extent.name()
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn ground(&self) -> &'static str {
+        self.settings.ground.name()
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn sun_disc(&self) -> bool {
+        self.settings.sun_disc
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn scale(&self) -> &'static str {
+        self.settings.scale.name()
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
+    fn color_space(&self) -> &'static str {
+        self.settings.color_space.name()
+    }
+
+    /// Write the probe; the file appears whole or not at all.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
+    /// half
+    ///     EXR with half floats, which end at 65504. True or "refuse": a brighter pixel, such as the Sun's disc, is an InputError;
+    ///     "scale": all pixels are multiplied by a power of two, which the header states.
+    /// exposure_stops
+    ///     Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
+    #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0))]
+    fn save(&self, py: Python<'_>, path: PathBuf, half: Option<&Bound<'_, PyAny>>, exposure_stops: f64) -> PyResult<()> {
+        let probe = self.snapshot(py)?;
+        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops };
+        work::run(py, None, |_| io::save(&path, &probe, &options, &self.metadata))
+    }
+
+    /// Irradiance of a plane: the integral of pixels times cosine, in the probe's units times sr.
+    ///
+    /// Parameters
+    /// ----------
+    /// normal
+    ///     Vector (east, north, up) that the plane faces; up by default.
+    #[pyo3(signature = (normal = None))]
+    fn irradiance(&self, py: Python<'_>, normal: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, f64, f64)> {
+        let normal = match normal {
+            None => DVec3::Z,
+            Some(given) => one_direction("normal", given)?,
+        };
+        let probe = self.snapshot(py)?;
+        Ok(work::run(py, None, |_| Ok(probe.irradiance(normal)))?.into())
+    }
+
+    fn __repr__(&self) -> String {
+        let (width, height) = (self.width(), self.height());
+        format!("<Probe: {width} x {height}, {}, {}, {}>", self.projection(), self.scale(), self.color_space())
+    }
+}
+
+/// `True` and `False`, or the name of what happens to pixels that half floats cannot hold.
+fn read_half(half: &Bound<'_, PyAny>) -> PyResult<Half> {
+    if let Ok(name) = half.extract::<String>() {
+        return Ok(name.parse()?);
+    }
+    let on: bool = half
+        .extract()
+        .map_err(|_| InputError::new_err(format!("half = {half}: must be True, False, \"refuse\" or \"scale\"")))?;
+    Ok(if on { Half::Refuse } else { Half::Off })
+}
+
+fn one_direction(parameter: &str, given: &Bound<'_, PyAny>) -> PyResult<DVec3> {
+    let vectors = arrays::triples(parameter, given)?;
+    match vectors[..] {
+        [vector] if DVec3::from(vector).is_finite() && DVec3::from(vector).length() > 0.0 => Ok(DVec3::from(vector)),
+        _ => Err(InputError::new_err(format!("{parameter} = {given}: must be a vector (east, north, up) longer than 0"))),
+    }
+}

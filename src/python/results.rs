@@ -1,0 +1,250 @@
+//! Plain results: `Body`, `SunEvents`, `Irradiance`, `Illuminance`.
+
+use crate::ephemeris;
+use crate::sky;
+use crate::time::Time;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+/// A body as it stands in the sky.
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Body {
+    pub inner: ephemeris::Body,
+}
+
+#[pymethods]
+impl Body {
+    /// English name, such as "Sun".
+    #[getter]
+    fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// Airless altitude of the centre. [degrees]
+    #[getter]
+    fn altitude_deg(&self) -> f64 {
+        self.inner.altitude_deg
+    }
+
+    /// Azimuth from north through east. [degrees]
+    #[getter]
+    fn azimuth_deg(&self) -> f64 {
+        self.inner.azimuth_deg
+    }
+
+    /// Altitude of the centre as refraction shows it. [degrees]
+    #[getter]
+    fn apparent_altitude_deg(&self) -> f64 {
+        self.inner.apparent_altitude_deg
+    }
+
+    /// Distance from the observer. [au]
+    #[getter]
+    fn distance_au(&self) -> f64 {
+        self.inner.distance_au
+    }
+
+    /// Angular diameter without refraction. [degrees]
+    #[getter]
+    fn angular_diameter_deg(&self) -> f64 {
+        self.inner.angular_diameter_deg
+    }
+
+    /// Visual magnitude outside the air, where it is known.
+    #[getter]
+    fn magnitude(&self) -> Option<f64> {
+        self.inner.magnitude
+    }
+
+    /// Angle at the body between Sun and observer, of bodies that shine by sunlight. [degrees]
+    #[getter]
+    fn phase_angle_deg(&self) -> Option<f64> {
+        self.inner.phase_angle_deg
+    }
+
+    /// Fraction of the disc that is lit, of bodies that shine by sunlight.
+    #[getter]
+    fn illuminated_fraction(&self) -> Option<f64> {
+        self.inner.illuminated_fraction
+    }
+
+    /// Unit vector (east, north, up) to the airless position.
+    #[getter]
+    fn direction(&self) -> (f64, f64, f64) {
+        self.inner.direction().into()
+    }
+
+    /// Unit vector (east, north, up) to the refracted position.
+    #[getter]
+    fn apparent_direction(&self) -> (f64, f64, f64) {
+        self.inner.apparent_direction().into()
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { inner } = self;
+        format!("<Body {}: altitude {:.4} deg, azimuth {:.4} deg>", inner.name, inner.altitude_deg, inner.azimuth_deg)
+    }
+}
+
+/// An instant as an aware `datetime.datetime`.
+pub fn datetime<'py>(py: Python<'py>, time: &Time) -> PyResult<Bound<'py, PyAny>> {
+    py.import("datetime")?.getattr("datetime")?.call_method1("fromisoformat", (time.to_string(),))
+}
+
+/// The Sun's day at a place, in the zone of the sky's time. An event that does not happen is None.
+///
+/// Sunrise and sunset are those of almanacs: the Sun's centre at -50 arcminutes, a level horizon.
+#[pyclass(frozen, module = "skyprobe")]
+pub struct SunEvents {
+    pub inner: ephemeris::SunEvents,
+}
+
+impl SunEvents {
+    fn optional<'py>(py: Python<'py>, time: Option<&Time>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        time.map(|time| datetime(py, time)).transpose()
+    }
+}
+
+#[pymethods]
+impl SunEvents {
+    /// The Sun's centre rises through -18 degrees.
+    #[getter]
+    fn astronomical_dawn<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.astronomical_dawn.as_ref())
+    }
+
+    /// The Sun's centre rises through -12 degrees.
+    #[getter]
+    fn nautical_dawn<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.nautical_dawn.as_ref())
+    }
+
+    /// The Sun's centre rises through -6 degrees.
+    #[getter]
+    fn civil_dawn<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.civil_dawn.as_ref())
+    }
+
+    /// The Sun's upper limb appears.
+    #[getter]
+    fn sunrise<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.sunrise.as_ref())
+    }
+
+    /// The Sun is in the meridian.
+    #[getter]
+    fn solar_noon<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        datetime(py, &self.inner.solar_noon)
+    }
+
+    /// Airless altitude at solar noon. [degrees]
+    #[getter]
+    fn noon_altitude_deg(&self) -> f64 {
+        self.inner.noon_altitude_deg
+    }
+
+    /// The Sun's upper limb disappears.
+    #[getter]
+    fn sunset<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.sunset.as_ref())
+    }
+
+    /// The Sun's centre sinks through -6 degrees.
+    #[getter]
+    fn civil_dusk<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.civil_dusk.as_ref())
+    }
+
+    /// The Sun's centre sinks through -12 degrees.
+    #[getter]
+    fn nautical_dusk<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.nautical_dusk.as_ref())
+    }
+
+    /// The Sun's centre sinks through -18 degrees.
+    #[getter]
+    fn astronomical_dusk<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Self::optional(py, self.inner.astronomical_dusk.as_ref())
+    }
+}
+
+/// Spectral irradiance, each of shape (W,). [W m-2 nm-1]
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Irradiance {
+    direct_normal: Py<PyArray1<f64>>,
+    direct_horizontal: Py<PyArray1<f64>>,
+    diffuse_horizontal: Py<PyArray1<f64>>,
+}
+
+impl Irradiance {
+    pub fn new(py: Python<'_>, irradiance: sky::Irradiance) -> Self {
+        let array = |values| PyArray1::from_vec(py, values).unbind();
+        Self {
+            direct_normal: array(irradiance.direct_normal),
+            direct_horizontal: array(irradiance.direct_horizontal),
+            diffuse_horizontal: array(irradiance.diffuse_horizontal),
+        }
+    }
+}
+
+#[pymethods]
+impl Irradiance {
+    /// Of the Sun's disc, on a plane that faces it. [W m-2 nm-1]
+    #[getter]
+    fn direct_normal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.direct_normal.clone_ref(py)
+    }
+
+    /// Of the Sun's disc, on the horizontal plane. [W m-2 nm-1]
+    #[getter]
+    fn direct_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.direct_horizontal.clone_ref(py)
+    }
+
+    /// Of the sky without the disc, on the horizontal plane. [W m-2 nm-1]
+    #[getter]
+    fn diffuse_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.diffuse_horizontal.clone_ref(py)
+    }
+}
+
+/// Illuminance, CIE 1931 observer. [lx]
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Illuminance {
+    pub inner: sky::Illuminance,
+}
+
+#[pymethods]
+impl Illuminance {
+    /// Of the Sun's disc, on a plane that faces it. [lx]
+    #[getter]
+    fn direct_normal_lx(&self) -> f64 {
+        self.inner.direct_normal_lx
+    }
+
+    /// Of the Sun's disc, on the horizontal plane. [lx]
+    #[getter]
+    fn direct_horizontal_lx(&self) -> f64 {
+        self.inner.direct_horizontal_lx
+    }
+
+    /// Of the sky without the disc, on the horizontal plane. [lx]
+    #[getter]
+    fn diffuse_horizontal_lx(&self) -> f64 {
+        self.inner.diffuse_horizontal_lx
+    }
+
+    /// Of disc and sky, on the horizontal plane. [lx]
+    #[getter]
+    fn global_horizontal_lx(&self) -> f64 {
+        self.inner.global_horizontal_lx
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { inner } = self;
+        format!(
+            "<Illuminance: direct {:.4} lx and diffuse {:.4} lx, horizontal>",
+            inner.direct_horizontal_lx, inner.diffuse_horizontal_lx
+        )
+    }
+}

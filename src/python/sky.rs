@@ -1,0 +1,313 @@
+//! `Sky`.
+
+use super::air::Atmosphere;
+use super::arrays;
+use super::errors::InputError;
+use super::probe::Probe;
+use super::results::{Body, Illuminance, Irradiance, SunEvents, datetime};
+use super::work;
+use crate::ephemeris::{self, Place, SunModel};
+use crate::error::check_range;
+use crate::io::config::time_at;
+use crate::io::describe;
+use crate::io::json;
+use crate::probe::{self, ProbeSettings};
+use crate::sky;
+use glam::DVec3;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+use std::sync::Arc;
+
+/// Largest departure of a direction's length from 1: what single precision leaves, with room.
+const UNIT_TOLERANCE: f64 = 1e-4;
+
+/// An atmosphere seen from a place at a time.
+///
+/// Parameters
+/// ----------
+/// latitude
+///     Geodetic, north positive, -90 to 90. [degrees]
+/// longitude
+///     East positive, -180 to 180. [degrees]
+/// time
+///     ISO 8601 text, or an aware ``datetime``. A text without offset is local time in ``zone``.
+/// atmosphere
+///     The air.
+/// elevation_m
+///     Height of the observer above the sea, -500 to 60000. [m]
+/// zone
+///     IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
+/// sun_model
+///     By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+#[pyclass(frozen, module = "skyprobe")]
+pub struct Sky {
+    inner: Arc<sky::Sky>,
+    air: Py<Atmosphere>,
+    sun_model: SunModel,
+}
+
+#[pymethods]
+impl Sky {
+    #[new]
+    #[pyo3(signature = (*, latitude, longitude, time, atmosphere, elevation_m = 0.0, zone = None, sun_model = "iau"))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn new(
+        latitude: f64,
+        longitude: f64,
+        time: &Bound<'_, PyAny>,
+        atmosphere: Bound<'_, Atmosphere>,
+        elevation_m: f64,
+        zone: Option<&str>,
+        sun_model: &str,
+    ) -> PyResult<Self> {
+        let place = Place::new(latitude, longitude, elevation_m)?;
+        let time = time_at(&place, &time_text(time)?, zone)?;
+        let sun_model = sun_model.parse()?;
+        let inner = sky::Sky::new(place, time, sun_model, atmosphere.get().inner.clone())?;
+        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model })
+    }
+
+    /// The sky under a Sun that is put, without place and time.
+    ///
+    /// Parameters
+    /// ----------
+    /// altitude_deg
+    ///     Airless, -90 to 90. [degrees]
+    /// azimuth_deg
+    ///     From north through east. [degrees]
+    /// atmosphere
+    ///     The air.
+    /// elevation_m
+    ///     Height of the observer above the sea, -500 to 60000. [m]
+    #[staticmethod]
+    #[pyo3(signature = (*, altitude_deg, azimuth_deg, atmosphere, elevation_m = 0.0))]
+    fn with_sun(altitude_deg: f64, azimuth_deg: f64, atmosphere: Bound<'_, Atmosphere>, elevation_m: f64) -> PyResult<Self> {
+        let inner = sky::Sky::with_sun(altitude_deg, azimuth_deg, elevation_m, atmosphere.get().inner.clone())?;
+        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model: SunModel::default() })
+    }
+
+    /// Latitude of the place. [degrees]
+    #[getter]
+    fn latitude(&self) -> Option<f64> {
+        self.inner.place().map(|place| place.latitude_deg)
+    }
+
+    /// Longitude of the place. [degrees]
+    #[getter]
+    fn longitude(&self) -> Option<f64> {
+        self.inner.place().map(|place| place.longitude_deg)
+    }
+
+    /// Height of the observer above the sea. [m]
+    #[getter]
+    fn elevation_m(&self) -> f64 {
+        self.inner.elevation_m()
+    }
+
+    /// The time, with its offset.
+    #[getter]
+    fn time<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.inner.time().map(|time| datetime(py, time)).transpose()
+    }
+
+    /// IANA zone of the time; None for a fixed offset.
+    #[getter]
+    fn zone(&self) -> Option<String> {
+        self.inner.time().and_then(|time| time.zone_name().map(str::to_string))
+    }
+
+    /// The air.
+    #[getter]
+    fn atmosphere(&self, py: Python<'_>) -> Py<Atmosphere> {
+        self.air.clone_ref(py)
+    }
+
+    /// The Sun.
+    #[getter]
+    fn sun(&self) -> Body {
+        Body { inner: self.inner.sun().clone() }
+    }
+
+    /// All bodies that light this sky.
+    fn bodies(&self) -> Vec<Body> {
+        self.inner.bodies().into_iter().map(|inner| Body { inner }).collect()
+    }
+
+    /// Sunrise, sunset, twilights and noon on the local date of this sky's time.
+    fn sun_events(&self, py: Python<'_>) -> PyResult<SunEvents> {
+        let (Some(place), Some(time)) = (self.inner.place(), self.inner.time()) else {
+            return Err(InputError::new_err("sky = with_sun(...): must be a sky with place and time"));
+        };
+        let inner = py.detach(|| ephemeris::sun_events(place, time))?;
+        Ok(SunEvents { inner })
+    }
+
+    /// Spectral radiance of sky and ground without the Sun's disc, shape (N, W). [W m-2 sr-1 nm-1]
+    ///
+    /// Parameters
+    /// ----------
+    /// directions
+    ///     Unit vectors (east, north, up) that one looks along, shape (N, 3).
+    /// wavelengths_nm
+    ///     Shape (W,), within the atmosphere's wavelengths. [nm]
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled.
+    #[pyo3(signature = (directions, wavelengths_nm, *, progress = None))]
+    fn spectral_radiance<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        wavelengths_nm: &Bound<'py, PyAny>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let directions = unit_vectors(directions)?;
+        let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
+        let shape = [directions.len(), wavelengths_nm.len()];
+        let radiance = work::run(py, progress, |progress| self.inner.spectral_radiance(&directions, &wavelengths_nm, progress))?;
+        PyArray1::from_vec(py, radiance).reshape(shape)
+    }
+
+    /// Spectral irradiance of Sun and sky. [W m-2 nm-1]
+    ///
+    /// Parameters
+    /// ----------
+    /// wavelengths_nm
+    ///     Shape (W,), within the atmosphere's wavelengths. [nm]
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled.
+    #[pyo3(signature = (wavelengths_nm, *, progress = None))]
+    fn irradiance(
+        &self,
+        py: Python<'_>,
+        wavelengths_nm: &Bound<'_, PyAny>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Irradiance> {
+        let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
+        let irradiance = work::run(py, progress, |progress| self.inner.irradiance(&wavelengths_nm, progress))?;
+        Ok(Irradiance::new(py, irradiance))
+    }
+
+    /// Illuminance of Sun and sky. [lx]
+    #[pyo3(signature = (*, progress = None))]
+    fn illuminance(&self, py: Python<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Illuminance> {
+        let inner = work::run(py, progress, |progress| self.inner.illuminance(progress))?;
+        Ok(Illuminance { inner })
+    }
+
+    /// Irradiance of the Sun's disc on a plane that faces it, in the units of a probe with this scale and colour space times sr.
+    #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", progress = None))]
+    fn sun_irradiance_rgb(
+        &self,
+        py: Python<'_>,
+        scale: &str,
+        color_space: &str,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(f64, f64, f64)> {
+        let (scale, color_space) = (scale.parse()?, color_space.parse()?);
+        let rgb = work::run(py, progress, |progress| self.inner.sun_irradiance_rgb(scale, color_space, progress))?;
+        Ok(rgb.into())
+    }
+
+    /// An image of the light from all directions.
+    ///
+    /// Parameters
+    /// ----------
+    /// width
+    ///     Even, 64 to 16384; the height follows. [pixels]
+    /// projection
+    ///     "latlong", or "fisheye" with the zenith in the centre.
+    /// rows
+    ///     "centre" (Blender and most viewers), or "corner" for Mitsuba: first and last row on the poles.
+    /// extent
+    ///     The "full" sphere or the "upper" half.
+    /// ground
+    ///     What is seen below the horizon: "on", "off" (black) or "mirrored".
+    /// sun_disc
+    ///     Whether the Sun's disc is drawn, with its exact energy at every width.
+    /// scale
+    ///     What 1.0 means: "blender" (luminance / 683), "mitsuba" (mean W m-2 sr-1 nm-1) or "luminance" (cd m-2).
+    /// color_space
+    ///     "lin_rec709", "acescg", "lin_rec2020" or "xyz"; always linear.
+    /// gamut
+    ///     What happens to a colour outside the space: "desaturate" towards the grey of its luminance, "clip" negative values, or
+    ///     "keep" them.
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled.
+    #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
+        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", progress = None))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn render(
+        &self,
+        py: Python<'_>,
+        width: i64,
+        projection: &str,
+        rows: &str,
+        extent: &str,
+        ground: &str,
+        sun_disc: bool,
+        scale: &str,
+        color_space: &str,
+        gamut: &str,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Probe> {
+        let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
+        let settings = ProbeSettings {
+            width: check_range("width", width as f64, low, high, "pixels")? as usize,
+            projection: projection.parse()?,
+            rows: rows.parse()?,
+            extent: extent.parse()?,
+            ground: ground.parse()?,
+            sun_disc,
+            scale: scale.parse()?,
+            color_space: color_space.parse()?,
+            gamut: json::word("gamut", gamut)?,
+        };
+        settings.validate()?;
+        let rendered = work::run(py, progress, |progress| probe::render(&self.inner.light(progress)?, &settings, progress))?;
+        Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &settings)))
+    }
+
+    fn __repr__(&self) -> String {
+        let sun = self.inner.sun();
+        let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);
+        match (self.inner.place(), self.inner.time()) {
+            (Some(place), Some(time)) => {
+                format!("<Sky: latitude {}, longitude {}, {time}, {sun}>", place.latitude_deg, place.longitude_deg)
+            }
+            _ => format!("<Sky: {sun}>"),
+        }
+    }
+}
+
+/// A time as text: a `str` as it is, an aware `datetime` in ISO 8601.
+fn time_text(time: &Bound<'_, PyAny>) -> PyResult<String> {
+    if let Ok(text) = time.cast::<PyString>() {
+        return Ok(text.to_string());
+    }
+    let wrong = |allowed: &str| InputError::new_err(format!("time = {time}: must be {allowed}"));
+    if !time.is_instance(&time.py().import("datetime")?.getattr("datetime")?)? {
+        return Err(wrong("a text or a datetime.datetime"));
+    }
+    if time.call_method0("utcoffset")?.is_none() {
+        return Err(wrong("a datetime with a time zone (tzinfo); a local time of the place is given as text"));
+    }
+    time.call_method0("isoformat")?.extract()
+}
+
+fn unit_vectors(directions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
+    let directions = arrays::triples("directions", directions)?;
+    directions
+        .into_iter()
+        .enumerate()
+        .map(|(index, direction)| {
+            let direction = DVec3::from(direction);
+            // Written so that not-a-number fails.
+            if (direction.length() - 1.0).abs() <= UNIT_TOLERANCE {
+                return Ok(direction.normalize());
+            }
+            let DVec3 { x, y, z } = direction;
+            Err(InputError::new_err(format!("directions[{index}] = ({x}, {y}, {z}): must be a vector of length 1")))
+        })
+        .collect()
+}

@@ -1,0 +1,127 @@
+//! Quality levels: rows of plain numbers that say how finely the light is solved and gathered.
+
+use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize};
+use std::str::FromStr;
+
+/// A named level of accuracy and cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// For live previews.
+    Draft,
+    /// For pictures.
+    #[default]
+    Standard,
+    /// For pictures that are measured.
+    High,
+    /// For checking the others.
+    Reference,
+}
+
+/// What a quality level means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numbers {
+    /// Wavelengths at which light is solved.
+    pub wavelengths: usize,
+    /// Altitude levels of the solved light field.
+    pub altitudes: usize,
+    /// Solar zenith angles of the solved light field.
+    pub solar_zenith_angles: usize,
+    /// View zenith angles per altitude level (rising, between the horizontal and the horizon, down to the ground) while the low orders are iterated.
+    pub iteration_zenith_nodes: [usize; 3],
+    /// The same in the last applications, with all orders.
+    pub zenith_nodes: [usize; 3],
+    /// View azimuths on half the circle in the first iterations of the solve, and in the last.
+    pub azimuth_nodes: [usize; 2],
+    /// Highest order of the spherical harmonics of the light field.
+    pub order: usize,
+    /// Applications of the scattering operator with all orders after the low orders have converged.
+    pub full_applications: usize,
+    /// Relative change at which the successive orders of scattering count as converged.
+    pub convergence: f32,
+    /// Longest step of a ray, which holds two points [km].
+    pub step_km: f64,
+    /// Circles of equal altitude above the horizon at which a dome of the sky is gathered.
+    pub dome_circles: usize,
+    /// Azimuths from the Sun's side to the opposite side on each circle.
+    pub dome_azimuths: usize,
+}
+
+impl Quality {
+    /// The row of numbers of this level.
+    pub const fn numbers(self) -> Numbers {
+        match self {
+            Self::Draft => Numbers {
+                wavelengths: 32,
+                altitudes: 18,
+                solar_zenith_angles: 40,
+                iteration_zenith_nodes: [5, 4, 3],
+                zenith_nodes: [6, 5, 3],
+                azimuth_nodes: [5, 6],
+                order: 4,
+                full_applications: 1,
+                convergence: 3e-3,
+                step_km: 80.0,
+                dome_circles: 20,
+                dome_azimuths: 16,
+            },
+            Self::Standard => Numbers {
+                wavelengths: 32,
+                altitudes: 26,
+                solar_zenith_angles: 52,
+                iteration_zenith_nodes: [6, 5, 3],
+                zenith_nodes: [8, 6, 4],
+                azimuth_nodes: [5, 8],
+                order: 6,
+                full_applications: 2,
+                convergence: 1e-3,
+                step_km: 60.0,
+                dome_circles: 24,
+                dome_azimuths: 20,
+            },
+            Self::High => Numbers {
+                wavelengths: 32,
+                altitudes: 40,
+                solar_zenith_angles: 72,
+                iteration_zenith_nodes: [7, 6, 4],
+                zenith_nodes: [10, 8, 5],
+                azimuth_nodes: [6, 11],
+                order: 8,
+                full_applications: 2,
+                convergence: 2e-4,
+                step_km: 30.0,
+                dome_circles: 36,
+                dome_azimuths: 28,
+            },
+            Self::Reference => Numbers {
+                wavelengths: 96,
+                altitudes: 64,
+                solar_zenith_angles: 120,
+                iteration_zenith_nodes: [10, 8, 5],
+                zenith_nodes: [16, 12, 8],
+                azimuth_nodes: [8, 16],
+                order: 12,
+                full_applications: 3,
+                convergence: 3e-5,
+                step_km: 25.0,
+                dome_circles: 96,
+                dome_azimuths: 72,
+            },
+        }
+    }
+}
+
+impl FromStr for Quality {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        match text {
+            "draft" => Ok(Self::Draft),
+            "standard" => Ok(Self::Standard),
+            "high" => Ok(Self::High),
+            "reference" => Ok(Self::Reference),
+            _ => Err(Error::input("quality", format!("{text:?}"), "draft, standard, high or reference")),
+        }
+    }
+}

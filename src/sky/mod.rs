@@ -1,0 +1,31 @@
+//! What is seen from a place at a time: the light of the sky, the Sun's disc, the ground.
+
+mod atmosphere;
+mod disc;
+mod dome;
+mod irradiance;
+mod place_and_time;
+
+pub use atmosphere::Atmosphere;
+pub use disc::Disc;
+pub use dome::SkyDome;
+pub use irradiance::{Illuminance, Irradiance};
+pub use place_and_time::Sky;
+
+/// The light around an observer as a probe needs it: a smooth part that can be asked for in any direction, and discs
+/// so small and bright that they must be drawn with their exact energy.
+///
+/// XYZ values are integrals of spectral radiance times the CIE 1931 colour matching functions over wavelength,
+/// so that Y is luminance / 683 lm W-1 [W m-2 sr-1].
+pub trait SkyLight: Sync {
+    /// Writes the smooth radiance (discs excluded) along a circle of equal altitude: XYZ [W m-2 sr-1] for
+    /// each of `azimuths` [radians, from north through east] at `altitude` [radians above the horizontal] into `out`, which has the same length.
+    /// Above the horizon it is the sky, below it the ground seen through the air.
+    fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]);
+
+    /// Altitude of the horizon [radians], 0 or negative: where the smooth radiance jumps from sky to ground.
+    fn horizon_altitude(&self) -> f64;
+
+    /// The discs above the horizon.
+    fn discs(&self) -> Vec<Disc>;
+}

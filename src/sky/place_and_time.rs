@@ -1,0 +1,402 @@
+//! The sky over a place at a time.
+
+use super::atmosphere::Atmosphere;
+use super::disc::{Disc, SOLAR_LIMB_DARKENING};
+use super::dome::{Gathering, SkyDome};
+use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, radiance};
+use crate::atmosphere::{Phase, molecules};
+use crate::ephemeris::{Body, Place, Refraction, SunModel, horizontal_from_direction, sun, sun_at};
+use crate::error::{Error, Result, check_range};
+use crate::light::{LightField, Observer};
+use crate::progress::Progress;
+use crate::spectrum::{ColorSpace, CubicSpline};
+use crate::time::Time;
+use crate::units::{LUMINOUS_EFFICACY, Scale};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Wavelength for which refraction is traced: near the peak of daylight vision [nm].
+const REFRACTION_NM: f64 = 550.0;
+
+/// The sky over an observer with the Sun at one position. Cheap to make: the light is solved by its [`Atmosphere`], once.
+///
+/// Light travels straight in the air; refraction moves and flattens the disc of the Sun where it is drawn, and with it its air mass.
+pub struct Sky {
+    place: Option<Place>,
+    time: Option<Time>,
+    elevation_m: f64,
+    sun: Body,
+    refraction: Refraction,
+    atmosphere: Arc<Atmosphere>,
+}
+
+impl Sky {
+    /// The sky over `place` at `time`.
+    ///
+    /// # Errors
+    /// None at present; a later layer of the sky may need data that it lacks.
+    pub fn new(place: Place, time: Time, sun_model: SunModel, atmosphere: Arc<Atmosphere>) -> Result<Self> {
+        let refraction = refraction(&atmosphere, place.elevation_m);
+        let sun = sun(&place, &time, sun_model, &refraction);
+        Ok(Self { elevation_m: place.elevation_m, place: Some(place), time: Some(time), sun, refraction, atmosphere })
+    }
+
+    /// A sky with the Sun put at an airless altitude and an azimuth [degrees], at 1 au, for an observer at `elevation_m` [m].
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an altitude outside -90 to 90, an azimuth outside -360 to 360, an elevation outside -500 to 60000 m.
+    pub fn with_sun(altitude_deg: f64, azimuth_deg: f64, elevation_m: f64, atmosphere: Arc<Atmosphere>) -> Result<Self> {
+        check_range("elevation_m", elevation_m, -500.0, 60_000.0, "m")?;
+        let refraction = refraction(&atmosphere, elevation_m);
+        let sun = sun_at(altitude_deg, azimuth_deg, &refraction)?;
+        Ok(Self { place: None, time: None, elevation_m, sun, refraction, atmosphere })
+    }
+
+    /// The place, if the sky has one.
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_ref()
+    }
+
+    /// The time, if the sky has one.
+    pub fn time(&self) -> Option<&Time> {
+        self.time.as_ref()
+    }
+
+    /// Height of the observer [m].
+    pub fn elevation_m(&self) -> f64 {
+        self.elevation_m
+    }
+
+    /// The Sun.
+    pub fn sun(&self) -> &Body {
+        &self.sun
+    }
+
+    /// Everything that is placed in the sky, the Sun first.
+    pub fn bodies(&self) -> Vec<Body> {
+        vec![self.sun.clone()]
+    }
+
+    /// The air.
+    pub fn atmosphere(&self) -> &Arc<Atmosphere> {
+        &self.atmosphere
+    }
+
+    /// Spectral radiance without the Sun's disc towards unit vectors `directions` (east, north, up) at `wavelengths_nm`:
+    /// shape (directions, wavelengths), row-major [W m-2 sr-1 nm-1]. Between the solved wavelengths the radiance relative to the Sun's spectrum is interpolated.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for directions that are not unit vectors and wavelengths that were not solved; [`Error::Cancelled`].
+    pub fn spectral_radiance(&self, directions: &[DVec3], wavelengths_nm: &[f64], progress: &Progress) -> Result<Vec<f64>> {
+        self.atmosphere.check_wavelengths(wavelengths_nm)?;
+        if let Some(bad) = directions.iter().find(|d| !(0.999..=1.001).contains(&d.length())) {
+            return Err(Error::input(
+                "directions",
+                format!("[{}, {}, {}]", bad.x, bad.y, bad.z),
+                "unit vectors (east, north, up)",
+            ));
+        }
+        let field = self.field(progress)?;
+        let (phases, observer) = (self.phases(), self.observer());
+        let sun = self.sun.direction();
+        let sunlight = self.sunlight(wavelengths_nm);
+        let parts = progress.parts("gather", directions.len());
+        let rows = directions
+            .par_iter()
+            .map(|direction| {
+                let direction = direction.normalize();
+                let azimuth = horizontal_from_direction(direction).1 - self.sun.azimuth_deg;
+                let gathered = field.gather(&observer, direction.z.clamp(-1.0, 1.0), &[azimuth.to_radians()]);
+                let relative: Vec<f64> =
+                    (0..gathered.wavelengths).map(|w| radiance(&gathered, &phases, 0, w, direction.dot(sun))).collect();
+                parts.finish_one()?;
+                Ok(self.at_wavelengths(&relative, wavelengths_nm, &sunlight))
+            })
+            .collect::<Result<Vec<_>>>()?;
+        Ok(rows.concat())
+    }
+
+    /// Spectral irradiance by the Sun and by the sky at `wavelengths_nm`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for wavelengths that were not solved; [`Error::Cancelled`].
+    pub fn irradiance(&self, wavelengths_nm: &[f64], progress: &Progress) -> Result<Irradiance> {
+        self.atmosphere.check_wavelengths(wavelengths_nm)?;
+        let field = self.field(progress)?;
+        let sunlight = self.sunlight(wavelengths_nm);
+        let transmittance = self.disc_transmittance(field);
+        let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
+        let diffuse = diffuse_horizontal(field, &self.phases(), &self.observer(), progress)?;
+        Ok(Irradiance {
+            direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
+            direct_normal,
+            diffuse_horizontal: self.at_wavelengths(&diffuse, wavelengths_nm, &sunlight),
+        })
+    }
+
+    /// Illuminance by the Sun and by the sky.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if the wavelengths of the air make no colour; [`Error::Cancelled`].
+    pub fn illuminance(&self, progress: &Progress) -> Result<Illuminance> {
+        let weights = self.xyz_weights()?;
+        let field = self.field(progress)?;
+        let luminous = |values: &[f64]| LUMINOUS_EFFICACY * values.iter().zip(&weights).map(|(v, w)| v * w[1]).sum::<f64>();
+        let direct_normal_lx = luminous(&self.disc_transmittance(field));
+        let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
+        let diffuse_horizontal_lx = luminous(&diffuse_horizontal(field, &self.phases(), &self.observer(), progress)?);
+        Ok(Illuminance {
+            direct_normal_lx,
+            direct_horizontal_lx,
+            diffuse_horizontal_lx,
+            global_horizontal_lx: direct_horizontal_lx + diffuse_horizontal_lx,
+        })
+    }
+
+    /// Irradiance by the Sun's disc through the air on a surface that faces it, as RGB in `color_space`, in the units of a probe's pixels times steradians:
+    /// a lamp of this strength lights a scene as the disc in the probe does.
+    ///
+    /// # Errors
+    /// As [`Self::illuminance`].
+    pub fn sun_irradiance_rgb(&self, scale: Scale, color_space: ColorSpace, progress: &Progress) -> Result<[f64; 3]> {
+        let xyz = self.sun_irradiance_xyz(self.field(progress)?)?;
+        Ok(color_space.from_xyz(xyz.map(|v| v * scale.factor())))
+    }
+
+    /// All light around the observer, ready to be made into a probe.
+    ///
+    /// # Errors
+    /// As [`Self::illuminance`].
+    pub fn light(&self, progress: &Progress) -> Result<SkyDome> {
+        let weights = self.xyz_weights()?;
+        let field = self.field(progress)?;
+        let (observer, horizon) = (self.observer(), self.horizon());
+        let discs = self.sun_disc(field, horizon)?;
+        let what =
+            Gathering { field, numbers: &self.atmosphere.quality().numbers(), phases: self.phases(), weights, observer, horizon };
+        SkyDome::gather(&what, (self.sun.altitude_deg.to_radians(), self.sun.azimuth_deg.to_radians()), discs, progress)
+    }
+
+    fn field(&self, progress: &Progress) -> Result<&LightField> {
+        self.atmosphere.field(progress)
+    }
+
+    fn observer(&self) -> Observer {
+        Observer { altitude_km: self.altitude_km(), sun_zenith: (90.0 - self.sun.altitude_deg).to_radians() }
+    }
+
+    /// Depressions below sea level lie on the ground of the model.
+    fn altitude_km(&self) -> f64 {
+        (self.elevation_m / 1000.0).max(0.0)
+    }
+
+    /// Geometric altitude of the horizon [radians].
+    fn horizon(&self) -> f64 {
+        let radius = self.atmosphere.profile().planet_radius_km;
+        -(radius / (radius + self.altitude_km())).acos()
+    }
+
+    fn phases(&self) -> Vec<Phase> {
+        self.atmosphere.profile().components.iter().filter_map(|component| component.phase.clone()).collect()
+    }
+
+    /// Square of 1 au over the Sun's distance.
+    fn nearness(&self) -> f64 {
+        self.sun.distance_au.powi(-2)
+    }
+
+    fn xyz_weights(&self) -> Result<Vec<[f64; 3]>> {
+        let nearness = self.nearness();
+        Ok(self.atmosphere.xyz_weights()?.into_iter().map(|xyz| xyz.map(|w| w * nearness)).collect())
+    }
+
+    /// Solar irradiance outside the air [W m-2 nm-1].
+    fn sunlight(&self, wavelengths_nm: &[f64]) -> Vec<f64> {
+        self.atmosphere.solar_irradiance(wavelengths_nm).into_iter().map(|e| e * self.nearness()).collect()
+    }
+
+    /// Takes values per unit solar irradiance at the solved wavelengths to absolute values at `wavelengths_nm`.
+    fn at_wavelengths(&self, relative: &[f64], wavelengths_nm: &[f64], sunlight: &[f64]) -> Vec<f64> {
+        let nodes = &self.atmosphere.profile().wavelengths_nm;
+        // Light varies by factors with wavelength: its logarithm is what is smooth.
+        let logs: Vec<f64> = relative.iter().map(|v| v.max(1e-30).ln()).collect();
+        let spline = CubicSpline::new(nodes, &logs);
+        wavelengths_nm
+            .iter()
+            .zip(sunlight)
+            .map(|(&wavelength, sun)| {
+                let value = match nodes.iter().position(|&node| node == wavelength) {
+                    Some(node) => relative[node],
+                    None => spline.value(wavelength).exp(),
+                };
+                value * sun
+            })
+            .collect()
+    }
+
+    /// Transmittance to the disc where it is seen.
+    fn disc_transmittance(&self, field: &LightField) -> Vec<f64> {
+        let observer = Observer { sun_zenith: (90.0 - self.sun.apparent_altitude_deg).to_radians(), ..self.observer() };
+        field.sun_transmittance(&observer)
+    }
+
+    /// Cosine of incidence of the disc on the horizontal plane.
+    fn disc_cosine(&self) -> f64 {
+        self.sun.apparent_altitude_deg.to_radians().sin().max(0.0)
+    }
+
+    fn sun_irradiance_xyz(&self, field: &LightField) -> Result<[f64; 3]> {
+        let mut xyz = [0.0; 3];
+        for (transmittance, weight) in self.disc_transmittance(field).iter().zip(self.xyz_weights()?) {
+            for k in 0..3 {
+                xyz[k] += transmittance * weight[k];
+            }
+        }
+        Ok(xyz)
+    }
+
+    fn sun_disc(&self, field: &LightField, horizon: f64) -> Result<Vec<Disc>> {
+        let horizontal_radius = (self.atmosphere.profile().sun_angular_radius_deg / self.sun.distance_au).to_radians();
+        let flattening = self.refraction.flattening(self.sun.altitude_deg, 2.0 * horizontal_radius.to_degrees());
+        let vertical_radius = horizontal_radius * flattening;
+        let irradiance = self.sun_irradiance_xyz(field)?;
+        let hidden = self.sun.apparent_altitude_deg.to_radians() + vertical_radius <= horizon;
+        if hidden || irradiance[1] <= 0.0 || horizontal_radius <= 0.0 {
+            return Ok(Vec::new());
+        }
+        let direction = self.sun.apparent_direction();
+        Ok(vec![Disc { direction, horizontal_radius, vertical_radius, irradiance, limb_darkening: SOLAR_LIMB_DARKENING }])
+    }
+}
+
+/// Refraction in the air of a preset; a profile says nothing of refraction, so its air has none.
+fn refraction(atmosphere: &Atmosphere, elevation_m: f64) -> Refraction {
+    let Some(air) = atmosphere.parameters().and_then(|parameters| parameters.resolve().ok()) else {
+        return Refraction::none();
+    };
+    let radius_m = 1000.0 * atmosphere.profile().planet_radius_km;
+    Refraction::new(
+        |altitude_m| molecules::refractivity_in(air.standard_atmosphere, altitude_m, REFRACTION_NM),
+        radius_m,
+        elevation_m,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atmosphere::AirParameters;
+    use crate::quality::Quality;
+    use crate::sky::SkyLight;
+
+    fn sky(atmosphere: &Arc<Atmosphere>, altitude_deg: f64, elevation_m: f64) -> Sky {
+        Sky::with_sun(altitude_deg, 200.0, elevation_m, Arc::clone(atmosphere)).unwrap()
+    }
+
+    /// XYZ by one gather in just this direction.
+    fn directly(sky: &Sky, altitude: f64, azimuth: f64) -> [f64; 3] {
+        let field = sky.field(&Progress::silent()).unwrap();
+        let from_sun = azimuth - sky.sun.azimuth_deg.to_radians();
+        let gathered = field.gather(&sky.observer(), altitude.sin(), &[from_sun]);
+        let sun = sky.sun.altitude_deg.to_radians();
+        let cosine = altitude.sin() * sun.sin() + altitude.cos() * sun.cos() * from_sun.cos();
+        let mut xyz = [0.0; 3];
+        for (w, weight) in sky.xyz_weights().unwrap().iter().enumerate() {
+            let value = radiance(&gathered, &sky.phases(), 0, w, cosine);
+            for k in 0..3 {
+                xyz[k] += value * weight[k];
+            }
+        }
+        xyz
+    }
+
+    #[test]
+    fn the_dome_is_what_is_gathered_in_each_direction() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+        for (sun, elevation) in [(60.0, 0.0), (20.0, 0.0), (3.0, 0.0), (-2.0, 0.0), (-6.0, 0.0), (30.0, 10_000.0)] {
+            let sky = sky(&atmosphere, sun, elevation);
+            let dome = sky.light(&Progress::silent()).unwrap();
+            let mut squares = 0.0;
+            let mut worst = (0.0_f64, 0.0, 0.0);
+            let n = 300;
+            for i in 0..n {
+                // Spiral over the whole sphere.
+                let altitude = (1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(n)).asin();
+                let azimuth = 2.399_963 * f64::from(i) % std::f64::consts::TAU;
+                let mut seen = [[0.0; 3]];
+                dome.radiance_circle(altitude, &[azimuth], &mut seen);
+                let expected = directly(&sky, altitude, azimuth);
+                let error = f64::from(seen[0][1]) / expected[1] - 1.0;
+                squares += error * error;
+                if error.abs() > worst.0.abs() {
+                    worst = (error, altitude.to_degrees(), azimuth.to_degrees());
+                }
+            }
+            let rms = (squares / f64::from(n)).sqrt();
+            println!(
+                "Sun {sun}, {elevation} m: rms {:.3} %, worst {:+.2} % at {:.1} {:.1}",
+                100.0 * rms,
+                100.0 * worst.0,
+                worst.1,
+                worst.2
+            );
+            assert!(rms < 0.01 && worst.0.abs() < 0.05, "Sun at {sun}: rms {rms}, worst {worst:?}");
+        }
+    }
+
+    #[test]
+    fn a_new_time_place_or_height_needs_no_new_solve() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+        assert!(!atmosphere.is_solved());
+        let stages = std::sync::Mutex::new(Vec::new());
+        let listen = |stage: &str, _: f64| {
+            stages.lock().unwrap().push(stage.to_string());
+            true
+        };
+        sky(&atmosphere, 30.0, 0.0).light(&Progress::new(&listen)).unwrap();
+        assert!(stages.lock().unwrap().iter().any(|stage| stage == "solve"));
+        stages.lock().unwrap().clear();
+        sky(&atmosphere, -3.0, 2500.0).light(&Progress::new(&listen)).unwrap();
+        assert!(stages.lock().unwrap().iter().all(|stage| stage == "gather"));
+    }
+
+    #[test]
+    fn cancelling_leaves_the_air_unsolved_and_usable() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+        let stop = |_: &str, fraction: f64| fraction < 0.2;
+        assert!(matches!(atmosphere.solve(&Progress::new(&stop)), Err(Error::Cancelled)));
+        assert!(!atmosphere.is_solved());
+        assert!(atmosphere.solve(&Progress::silent()).is_ok());
+    }
+
+    /// Without air there is only the Sun: its illuminance is that of the solar spectrum.
+    #[test]
+    fn outside_the_air_the_sun_has_its_whole_illuminance() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+        let high = sky(&atmosphere, 60.0, 60_000.0).illuminance(&Progress::silent()).unwrap();
+        // checked against: Darula, Kittler & Gueymard 2005, luminous solar constant 133.334 klx; ozone below 60 km and 380-740 nm take part of a per cent.
+        assert!((high.direct_normal_lx / 133_334.0 - 1.0).abs() < 0.005, "{high:?}");
+        assert!(high.diffuse_horizontal_lx < 100.0, "{high:?}");
+    }
+
+    #[test]
+    fn the_air_refracts_as_the_standard_atmosphere() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+        // checked against: an independent ray trace (Auer-Standish integral) of the US Standard Atmosphere 1976, 550 nm, sea level:
+        // refraction in arc minutes by apparent altitude in degrees.
+        for (apparent_deg, minutes) in [
+            (0.0, 33.009),
+            (0.5, 27.652),
+            (1.0, 23.543),
+            (2.0, 17.785),
+            (5.0, 9.664),
+            (10.0, 5.222),
+            (20.0, 2.598),
+            (45.0, 0.953),
+        ] {
+            let seen = sky(&atmosphere, apparent_deg - minutes / 60.0, 0.0).sun.apparent_altitude_deg;
+            assert!((seen - apparent_deg).abs() < 0.005 * minutes / 60.0, "{apparent_deg}: {seen}");
+        }
+    }
+}

@@ -1,0 +1,61 @@
+"""The extension, built once from the wheel and installed once in each Blender."""
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).resolve().parent.parent
+# The interpreter that runs pytest need not be told where the shared modules are.
+sys.path.insert(0, str(TESTS))
+
+from blender import hosts  # noqa: E402
+
+
+@dataclass(frozen=True)
+class Host:
+    """A Blender in which the extension is installed."""
+
+    version: str
+    resources: Path
+
+    def run(self, function, **arguments):
+        """Call `function` of a script in this folder inside this Blender; see hosts.run."""
+        return hosts.run(self.version, function, self.resources, **arguments)
+
+
+@pytest.fixture(scope="session")
+def wheel():
+    """The wheel under test: SKYPROBE_WHEEL, or the newest in dist/."""
+    named = os.environ.get("SKYPROBE_WHEEL")
+    wheels = [Path(named)] if named else sorted((hosts.ROOT / "dist").glob("skyprobe-*.whl"), key=lambda path: path.stat().st_mtime)
+    if not wheels:
+        pytest.fail("no wheel in dist/: build it with maturin, or name it in SKYPROBE_WHEEL")
+    return wheels[-1]
+
+
+@pytest.fixture(scope="session")
+def extension(wheel, tmp_path_factory):
+    """The path of the extension's zip, made by its build script."""
+    folder = tmp_path_factory.mktemp("extension")
+    build = [sys.executable, hosts.ROOT / "blender_addon" / "build.py", wheel, "--output", folder]
+    run = subprocess.run(build, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    (archive,) = folder.glob("*.zip")
+    assert str(archive) in run.stdout
+    return archive
+
+
+@pytest.fixture(scope="session", params=hosts.VERSIONS)
+def host(request, tmp_path_factory):
+    """Each Blender in turn, with the extension installed from its zip."""
+    hosts.python_of(request.param)
+    extension = request.getfixturevalue("extension")
+    resources = tmp_path_factory.mktemp(f"blender{request.param}")
+    host = Host(request.param, resources)
+    answer = host.run("steps.install", archive=str(extension))
+    assert answer["version"].startswith(request.param)
+    return host

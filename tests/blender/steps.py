@@ -1,0 +1,294 @@
+"""What the tests let Blender do with the installed extension. Each function runs in a process of its own (hosts.run)."""
+
+import importlib
+import sys
+import tempfile
+from pathlib import Path
+
+import addon_utils
+import analysis
+import bpy
+import numpy as np
+import scene_builder
+from render_scene import picture_of
+from scene_geometry import load_scene
+
+PACKAGE = "bl_ext.user_default.skyprobe"
+
+
+def install(archive):
+    """Install the zip as a user would."""
+    addon_utils.enable("bl_pkg")
+    answer = bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
+    return {
+        "version": bpy.app.version_string,
+        "answer": sorted(answer),
+        "enabled": hasattr(bpy.types.Scene, "skyprobe"),
+        "module": sys.modules["skyprobe"].__file__,
+    }
+
+
+def enable():
+    """Switch the installed extension on, after the file is loaded."""
+    addon_utils.enable("bl_pkg")
+    if addon_utils.enable(PACKAGE) is None:
+        raise RuntimeError(f"{PACKAGE} cannot be enabled")
+
+
+def part(name):
+    """Return a module of the extension."""
+    return importlib.import_module(f"{PACKAGE}.{name}")
+
+
+def set_up(parts=None, camera="camera", **settings):
+    """Build the test scene with a small quick probe's settings; return the scene."""
+    scene = scene_builder.build(load_scene(), parts, camera)
+    enable()
+    for name, value in {"quality": "draft", "width": 256, **settings}.items():
+        setattr(scene.skyprobe, name, value)
+    return scene
+
+
+def grey_world():
+    """Return a world as a user may have it: a strong grey behind a node of theirs, with mist."""
+    world = bpy.data.worlds.new("Mine")
+    if bpy.app.version < (5, 0, 0):
+        world.use_nodes = True
+    world.mist_settings.start = 7.0
+    nodes = world.node_tree.nodes
+    nodes.clear()
+    background, output = nodes.new("ShaderNodeBackground"), nodes.new("ShaderNodeOutputWorld")
+    background.inputs["Strength"].default_value = 3.0
+    world.node_tree.links.new(background.outputs["Background"], output.inputs["Surface"])
+    return world
+
+
+def census():
+    """Return how much of each kind is in the file."""
+    counts = {kind: len(getattr(bpy.data, kind)) for kind in ("worlds", "lights", "objects", "node_groups")}
+    # Rendering makes an image of its own.
+    counts["images"] = sum(image.type != "RENDER_RESULT" for image in bpy.data.images)
+    return counts
+
+
+def light_up(sun_mode, picture_path):
+    """Press Render Probe in a scene with a world, render a picture, save, reopen without the extension, render, and remove."""
+    scene = set_up(sun_mode=sun_mode)
+    scene.world = mine = grey_world()
+    before = census()
+    answer = bpy.ops.skyprobe.render()
+    lit = picture_of(scene, 4)
+    np.save(picture_path, lit)
+    state = state_of(scene)
+    # The same again takes the place of what was there.
+    bpy.ops.skyprobe.render()
+    after_second = census()
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = str(Path(folder) / "scene.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=file, copy=True)
+        bpy.ops.skyprobe.remove()
+        restored = {
+            "world": scene.world == mine,
+            "census": census() == before,
+            "strength": mine.node_tree.nodes["Background"].inputs["Strength"].default_value,
+            "nodes": len(mine.node_tree.nodes),
+        }
+        addon_utils.disable(PACKAGE)
+        bpy.ops.wm.open_mainfile(filepath=file)
+        alone = picture_of(bpy.context.scene, 4)
+        alone_has_addon = hasattr(bpy.types.Scene, "skyprobe")
+    return {
+        "answer": sorted(answer),
+        "state": state,
+        "before": before,
+        "after_second": after_second,
+        "restored": restored,
+        "alone_has_addon": alone_has_addon,
+        "alone_relative_difference": float(np.abs(alone - lit).mean() / lit.mean()),
+        "mean": lit.mean(axis=(0, 1)).tolist(),
+    }
+
+
+def state_of(scene):
+    """Return what a user would find in the scene after a probe was rendered."""
+    world = scene.world
+    environment = world.node_tree.nodes["Skyprobe Environment"]
+    suns = [thing for thing in scene.objects if thing.type == "LIGHT"]
+    return {
+        "world": world.name,
+        "mist_start": world.mist_settings.start,
+        "image_size": list(environment.image.size),
+        "image_float": environment.image.is_float,
+        "image_packed": environment.image.packed_file is not None,
+        "color_space": environment.image.colorspace_settings.name,
+        "importance": [world.cycles.sampling_method, world.cycles.sample_map_resolution],
+        "sun_threshold": world.sun_threshold,
+        "brightest": float(np.max(pixels_of(environment.image))),
+        "lamps": [[lamp.data.energy, *lamp.data.color, lamp.data.angle] for lamp in suns],
+    }
+
+
+def pixels_of(image):
+    """Return the pixels of `image`, (H, W, 3), row 0 at the top."""
+    width, height = image.size
+    flat = np.empty(width * height * image.channels, dtype=np.float32)
+    image.pixels.foreach_get(flat)
+    return flat.reshape(height, width, -1)[::-1, :, :3]
+
+
+def keep_as_file(folder):
+    """Render a probe that is kept as a file, before and after the .blend has a place."""
+    scene = set_up(storage="FILE", directory="//")
+    message = error_of(bpy.ops.skyprobe.render)
+    bpy.ops.wm.save_as_mainfile(filepath=str(Path(folder) / "scene.blend"))
+    bpy.ops.skyprobe.render()
+    image = scene.skyprobe.image
+    return {"unsaved": message, "filepath": image.filepath_raw, "packed": image.packed_file is not None, "size": list(image.size)}
+
+
+def error_of(operator):
+    """Return the message with which `operator` fails, or an empty one."""
+    try:
+        operator()
+    except RuntimeError as error:
+        return str(error).strip()
+    return ""
+
+
+def mistakes(unwritable):
+    """Try settings that cannot be used; tell the messages and whether anything changed."""
+    cases = {
+        "zone": {"zone_mode": "NAME", "zone_name": "Nowhere/Atlantis"},
+        "day": {"month": 2, "day": 30},
+        "folder": {"storage": "FILE", "directory": unwritable},
+    }
+    answers = {}
+    for name, settings in cases.items():
+        scene = set_up(**settings)
+        scene.world = mine = grey_world()
+        before = census()
+        message = error_of(bpy.ops.skyprobe.render)
+        answers[name] = {"message": message, "untouched": scene.world == mine and census() == before and not scene.skyprobe.lamp}
+    return answers
+
+
+def choices():
+    """Ask the library for every air that the panel offers; tell which it refuses."""
+    enable()
+    import skyprobe
+
+    properties = part("properties")
+    refused = {}
+    for keyword, items in (("preset", properties.PRESETS), ("aerosol", properties.AEROSOLS), ("ground", properties.GROUNDS)):
+        for name, _, _ in items:
+            if name == properties.OF_PRESET:
+                continue
+            try:
+                skyprobe.Atmosphere(**{"preset": "clear", keyword: name})
+            except ValueError as error:
+                refused[f"{keyword} {name}"] = str(error)
+    return refused
+
+
+def time_texts():
+    """Return the time that the settings mean, in each way to give the zone."""
+    scene = set_up(year=2025, month=6, day=21, hour=13.5, zone_name="Europe/Stockholm", utc_offset=-3.5)
+    texts = {}
+    for mode in ("PLACE", "NAME", "OFFSET"):
+        scene.skyprobe.zone_mode = mode
+        texts[mode] = part("properties").time(scene.skyprobe)
+    return texts
+
+
+def threads(folder):
+    """Run one job on its thread to the end and cancel another; tell how each ended and which files there are."""
+    scene = set_up(storage="FILE", directory=folder)
+    jobs, operators = part("jobs"), part("operators")
+    first = jobs.ProbeJob(operators.request_of(scene))
+    first.start()
+    first.join()
+    scene.skyprobe.width = 2048
+    second = jobs.ProbeJob(operators.request_of(scene))
+    second.cancel()
+    second.start()
+    second.join()
+    return {
+        "first": [type(first.error).__name__, first.result is not None],
+        "second": [type(second.error).__name__, second.result is not None],
+        "files": [path.name for path in Path(folder).iterdir()],
+        "written": Path(first.request.path).name,
+    }
+
+
+def light_with_sun(scene, altitude_deg, azimuth_deg, width, sun_in_map):
+    """Light `scene` by a Sun in a given direction, by the extension's own code; return its skyprobe.Sky."""
+    import skyprobe
+
+    jobs = part("jobs")
+    air = load_scene()["air"]
+    sky = skyprobe.Sky.with_sun(
+        altitude_deg=altitude_deg, azimuth_deg=azimuth_deg, elevation_m=0, atmosphere=jobs.atmosphere(air)
+    )
+    path = str(Path(bpy.app.tempdir) / "probe.exr")
+    request = jobs.ProbeRequest(
+        air=air, place={}, time="", width=width, sun_in_map=sun_in_map, lamp_color_space="lin_rec709", path=path, pack=True
+    )
+    result = jobs.render(sky, request, lambda stage, fraction: True)
+    part("scene_probe").apply(scene, result)
+    return sky
+
+
+def shadows(sun_in_map):
+    """Return [Sun azimuth, azimuth of the pole's shadow] for each azimuth of scene.json."""
+    data = load_scene()
+    scene = set_up(["plane", "pole"], "top_camera")
+    measured = []
+    for azimuth in data["sun"]["shadow_azimuths_deg"]:
+        light_with_sun(scene, data["sun"]["altitude_deg"], azimuth, data["probe_width"], sun_in_map)
+        measured.append([azimuth, analysis.shadow_azimuth_deg(picture_of(scene, 16), data["top_camera"])])
+    return measured
+
+
+def turned_shadow(north_deg):
+    """Return the shadow's azimuth after north is turned under a finished probe, as lamp and in the map."""
+    data = load_scene()
+    answer = {}
+    for sun_in_map in (False, True):
+        scene = set_up(["plane", "pole"], "top_camera")
+        light_with_sun(scene, data["sun"]["altitude_deg"], 110.0, data["probe_width"], sun_in_map)
+        scene.skyprobe.north = np.radians(north_deg)
+        answer["map" if sun_in_map else "lamp"] = analysis.shadow_azimuth_deg(picture_of(scene, 16), data["top_camera"])
+    return answer
+
+
+def white_plane(altitude_deg, width, sun_in_map, samples):
+    """Return the mean radiance of the white plane and the irradiance of the same sky's probe with the Sun's disc in it."""
+    data = load_scene()
+    scene = set_up(["plane"], "top_camera")
+    scene.render.resolution_x = scene.render.resolution_y = 48
+    sky = light_with_sun(scene, altitude_deg, 200.0, width, sun_in_map)
+    picture = picture_of(scene, samples)
+    probe = sky.render(width=width, scale="blender", color_space="lin_rec709", sun_disc=True)
+    return {
+        "radiance": picture.mean(axis=(0, 1), dtype=np.float64).tolist(),
+        "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist(),
+        "reflectance": data["materials"]["white"]["reflectance"],
+    }
+
+
+def white_plane_in_eevee():
+    """Return what white_plane does, rendered by EEVEE with the Sun as a lamp."""
+    data = load_scene()
+    scene = set_up(["plane"], "top_camera")
+    scene.render.resolution_x = scene.render.resolution_y = 8
+    sky = light_with_sun(scene, 40.0, 200.0, 256, sun_in_map=False)
+    scene.render.engine = "BLENDER_EEVEE_NEXT" if bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
+    scene.eevee.taa_render_samples = 4
+    picture = picture_of(scene, 1)
+    probe = sky.render(width=256, scale="blender", color_space="lin_rec709", sun_disc=True)
+    return {
+        "radiance": picture.mean(axis=(0, 1), dtype=np.float64).tolist(),
+        "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist(),
+        "reflectance": data["materials"]["white"]["reflectance"],
+    }

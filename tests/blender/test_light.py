@@ -1,0 +1,37 @@
+"""Where the light in Blender comes from and how much of it there is: shadows and a white plane against the probe's own numbers."""
+
+import math
+
+import numpy as np
+import pytest
+from scene_geometry import angle_between_azimuths_deg
+
+
+@pytest.mark.parametrize("sun_in_map", [False, True], ids=["lamp", "map"])
+def test_the_poles_shadow_points_away_from_the_sun(host, sun_in_map):
+    measured = host.run("steps.shadows", sun_in_map=sun_in_map)
+    assert len(measured) == 4
+    for azimuth, shadow in measured:
+        assert angle_between_azimuths_deg(shadow, azimuth + 180.0) < 0.5, f"Sun {azimuth}, shadow {shadow}"
+
+
+def test_north_turns_lamp_and_map_together_clockwise(host):
+    # Sun at azimuth 110, north 30 degrees clockwise of +Y: the Sun stands 140 degrees clockwise of +Y.
+    for way, shadow in host.run("steps.turned_shadow", north_deg=30.0).items():
+        assert angle_between_azimuths_deg(shadow, 110.0 + 30.0 + 180.0) < 0.5, f"{way}: {shadow}"
+
+
+@pytest.mark.parametrize("sun_in_map", [False, True], ids=["lamp", "map"])
+@pytest.mark.parametrize("altitude_deg", [40.0, 8.0])
+def test_a_white_plane_radiates_the_irradiance_of_the_probe_over_pi(host, altitude_deg, sun_in_map):
+    answer = host.run("steps.white_plane", altitude_deg=altitude_deg, width=512, sun_in_map=sun_in_map, samples=128)
+    expected = np.array(answer["irradiance"]) * answer["reflectance"] / math.pi
+    assert np.array(answer["radiance"]) == pytest.approx(expected, rel=0.01)
+
+
+def test_eevee_counts_the_sun_once(host):
+    answer = host.run("steps.white_plane_in_eevee")
+    expected = np.array(answer["irradiance"]) * answer["reflectance"] / math.pi
+    # EEVEE keeps four numbers of the sky's light, good to some percent. Without the Sun about a quarter would be left, with two of them
+    # nearly twice as much.
+    assert np.array(answer["radiance"]) == pytest.approx(expected, rel=0.15)

@@ -1,0 +1,85 @@
+"""mitsuba_scenes/render.py: from a Sun or a probe to the files of a picture, and nothing by halves."""
+
+import subprocess
+import sys
+
+import mitsuba as mi
+import numpy as np
+import pytest
+import render_scene
+
+SCRIPT = render_scene.ROOT / "mitsuba_scenes" / "render.py"
+SMALL = ["--width", "96", "--spp", "4", "--probe-width", "128", "--quality", "draft"]
+
+
+def run(*given):
+    return subprocess.run([sys.executable, SCRIPT, *map(str, given)], capture_output=True, text=True, timeout=300)
+
+
+def read(path):
+    mi.set_variant("scalar_rgb")
+    return np.array(mi.Bitmap(str(path)))
+
+
+def test_probe_and_picture_in_one_go(tmp_path, variant):
+    answer = run("--latitude", 55.71, "--longitude", 13.19, "--time", "2005-06-21T13:00:00+02:00", "--variant", variant,
+                 "--output", tmp_path / "lund.exr", *SMALL)  # fmt: skip
+    assert answer.returncode == 0, answer.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"lund.exr", "lund.png", "lund_probe.exr"}
+    picture, image, probe = (read(tmp_path / name) for name in ("lund.exr", "lund.png", "lund_probe.exr"))
+    assert picture.shape == (64, 96, 3) and picture.dtype == np.float32
+    assert image.shape == (64, 96, 3) and image.dtype == np.uint8
+    assert probe.shape[:2] == (64, 128)
+    assert np.isfinite(picture).all() and picture.mean() > 0.0
+    # Neither black nor burnt out.
+    assert 60 < image.mean() < 240
+
+
+def test_a_probe_that_is_there_is_used_as_it_is(probe, tmp_path):
+    path = tmp_path / "sky.exr"
+    probe(width=128, rows="corner").save(path)
+    before = path.read_bytes()
+    answer = run("--probe", path, "--output", tmp_path / "picture.exr", "--variant", "scalar_rgb", *SMALL)
+    assert answer.returncode == 0, answer.stderr
+    assert answer.stderr == ""
+    assert path.read_bytes() == before
+    assert (tmp_path / "picture.exr").exists()
+
+
+def test_centred_rows_are_pointed_out(probe, tmp_path):
+    path = tmp_path / "sky.exr"
+    probe(width=128, rows="centre").save(path)
+    answer = run("--probe", path, "--output", tmp_path / "picture.exr", "--variant", "scalar_rgb", *SMALL)
+    assert answer.returncode == 0
+    assert "rows in the centre" in answer.stderr
+
+
+@pytest.mark.parametrize(
+    ("wrong", "named"),
+    [
+        ([], "--latitude"),
+        (["--latitude", "55"], "--longitude"),
+        (["--sun-altitude", "30"], "--sun-azimuth"),
+        (["--sun-altitude", "30", "--sun-azimuth", "180", "--probe", "sky.exr"], "--probe"),
+        (["--latitude", "91", "--longitude", "13", "--time", "2005-06-21T13:00:00+02:00"], "latitude"),
+        (["--latitude", "55", "--longitude", "13", "--time", "yesterday"], "time"),
+        (["--sun-altitude", "nan", "--sun-azimuth", "180"], "altitude"),
+        (["--sun-altitude", "30", "--sun-azimuth", "180", "--turbidity", "-1"], "turbidity"),
+        (["--sun-altitude", "30", "--sun-azimuth", "180", "--width", "0"], "width"),
+        (["--probe", "nowhere.exr"], "probe"),
+    ],
+)
+def test_wrong_input_is_one_line_and_leaves_nothing(tmp_path, wrong, named):
+    answer = run("--output", tmp_path / "picture.exr", *SMALL, *wrong)
+    assert answer.returncode == 2
+    assert answer.stderr.count("\n") == 1 and named in answer.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("output", ["picture.jpg", "nowhere/picture.exr", "folder.exr"])
+def test_an_output_that_cannot_be_is_refused_before_any_work(tmp_path, output):
+    (tmp_path / "folder.exr").mkdir()
+    answer = run("--sun-altitude", 30, "--sun-azimuth", 180, "--output", tmp_path / output, *SMALL)
+    assert answer.returncode == 2
+    assert answer.stderr.count("\n") == 1 and "output" in answer.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["folder.exr"]

@@ -1,0 +1,47 @@
+//! The solved radiance against independent codes: discrete ordinates in a flat and Monte Carlo in a spherical atmosphere.
+
+mod common;
+
+use common::airs::{Airs, summary};
+use common::{FLAT_RADIUS_KM, Row, SPHERICAL_RADIUS_KM, shared_table};
+
+#[test]
+fn flat_atmosphere_agrees_with_discrete_ordinates() {
+    let Some(rows) = shared_table("radiance/plane_parallel_scalar_disort.csv") else { return };
+    let airs = Airs::solve(&rows, FLAT_RADIUS_KM);
+    let errors: Vec<f64> = rows.iter().map(|row| airs.radiance(row, 0.0) / row["radiance"] - 1.0).collect();
+    for aerosol in [0.0, 0.1, 0.4, 1.0] {
+        let part: Vec<f64> = rows.iter().zip(&errors).filter(|(row, _)| row["tau_aerosol"] == aerosol).map(|(_, e)| *e).collect();
+        if !part.is_empty() {
+            summary(&format!("plane-parallel, aerosol optical depth {aerosol}"), &part);
+        }
+    }
+    let (rms, worst) = summary("plane-parallel", &errors);
+    for (row, error) in rows.iter().zip(&errors).filter(|(_, e)| e.abs() > 0.7 * worst) {
+        println!("{:+.2} % {row:?}", 100.0 * error);
+    }
+    assert!(rms <= 0.02 && worst <= 0.06);
+}
+
+#[test]
+fn spherical_atmosphere_agrees_with_monte_carlo() {
+    let Some(rows) = shared_table("radiance/spherical_scalar_monte_carlo.csv") else { return };
+    let airs = Airs::solve(&rows, SPHERICAL_RADIUS_KM);
+    let error = |row: &Row| {
+        let expected = row["single_scattering"] + row["multiple_scattering"];
+        airs.radiance(row, row["observer_altitude_km"]) / expected - 1.0
+    };
+    for zenith in [30.0, 60.0, 75.0, 80.0, 85.0, 88.0, 90.0, 92.0, 94.0, 96.0, 98.0, 100.0] {
+        let part: Vec<f64> = rows.iter().filter(|row| row["sun_zenith_deg"] == zenith).map(error).collect();
+        if !part.is_empty() {
+            summary(&format!("spherical, Sun zenith {zenith}"), &part);
+        }
+    }
+    let tested: Vec<&Row> = rows.iter().filter(|row| row["sun_zenith_deg"] <= 94.0).collect();
+    let errors: Vec<f64> = tested.iter().map(|row| error(row)).collect();
+    let (rms, worst) = summary("spherical to Sun zenith 94", &errors);
+    for (row, error) in tested.iter().zip(&errors).filter(|(_, e)| e.abs() > 0.7 * worst) {
+        println!("{:+.2} % {row:?}", 100.0 * error);
+    }
+    assert!(rms <= 0.02);
+}

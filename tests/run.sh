@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# Sets up and passes all tests: the one command for a fresh Debian machine with Rust and Python 3.11.
+#
+#     tests/run.sh
+#
+# Makes its environments (setup_hosts.sh), builds the wheel and the Blender extension, checks the sources, runs the Rust and the Python
+# tests. The last line says how many tests ran; the exit code is 0 only if nothing failed.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 1
+root=$PWD
+logs=$root/target/test-logs
+mkdir -p "$logs"
+# The wheel, the command line tool and the tests share one profile and one target folder, so that each dependency is compiled once.
+export CARGO_TERM_COLOR=${CARGO_TERM_COLOR:-never}
+export CARGO_TARGET_DIR=$root/target
+python=$root/.venv/bin/python
+export PYO3_PYTHON=$python
+unset PYTHONPATH PYTHONHOME
+
+failed=()
+durations=()
+
+# stage NAME COMMAND...: runs it, keeps its output in the logs too, notes how long it took and whether it failed.
+stage() {
+    local name=$1 start=$SECONDS status
+    shift
+    echo
+    echo "=== $name"
+    "$@" 2>&1 | tee "$logs/${name// /_}.log"
+    status=${PIPESTATUS[0]}
+    durations+=("$name $((SECONDS - start)) s")
+    [ "$status" = 0 ] || failed+=("$name")
+    return "$status"
+}
+
+build_wheel() {
+    # One wheel in dist/, so that nobody tests an old one.
+    rm -f dist/skyprobe-*.whl dist/skyprobe-*.zip
+    "$root/.venv/bin/maturin" build --release --locked --out dist --interpreter "$python" \
+        && "$python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall dist/skyprobe-*.whl \
+        && (cd / && "$python" -c 'import skyprobe; print("skyprobe", skyprobe.__version__, "loads")')
+}
+
+clippy() {
+    cargo clippy --version > /dev/null 2>&1 || { echo "clippy is not installed: left out"; return 0; }
+    cargo clippy --release --locked --all-targets -- -D warnings \
+        && cargo clippy --release --locked --lib --features python -- -D warnings
+}
+
+format() {
+    cargo fmt --version > /dev/null 2>&1 || { echo "rustfmt is not installed: left out"; return 0; }
+    cargo fmt --check
+}
+
+rust_tests() {
+    cargo test --release --locked --no-fail-fast
+}
+
+python_tests() {
+    SKYPROBE_BINARY=$root/target/release/skyprobe "$python" -m pytest --junitxml="$logs/python.xml" "$@"
+}
+
+# Prints "ran failed skipped" of each side, from what the tools reported.
+count_rust() {
+    awk '/^test result:/ { ran += $4 + $6; failed += $6; skipped += $8 } END { print ran + 0, failed + 0, skipped + 0 }' "$logs/Rust_tests.log" 2> /dev/null \
+        || echo 0 0 0
+}
+
+count_python() {
+    "$python" - "$logs/python.xml" 2> /dev/null << 'COUNT' || echo 0 0 0
+import sys
+import xml.etree.ElementTree as ElementTree
+
+totals = {name: 0 for name in ("tests", "failures", "errors", "skipped")}
+for suite in ElementTree.parse(sys.argv[1]).getroot().iter("testsuite"):
+    for name in totals:
+        totals[name] += int(suite.get(name, 0))
+print(totals["tests"] - totals["skipped"], totals["failures"] + totals["errors"], totals["skipped"])
+COUNT
+}
+
+rm -f "$logs"/*
+stage "setup" tests/setup_hosts.sh || { echo "tests: 0 ran, setup failed"; exit 1; }
+stage "format" format
+stage "clippy" clippy
+stage "command line tool" cargo build --release --locked
+stage "Rust tests" rust_tests
+if stage "wheel" build_wheel; then
+    stage "Blender extension" "$python" blender_addon/build.py
+    stage "Python tests" python_tests "$@"
+fi
+
+read -r rust_ran rust_failed rust_skipped < <(count_rust)
+read -r python_ran python_failed python_skipped < <(count_python)
+echo
+echo "=== durations"
+printf '%s\n' "${durations[@]}"
+[ ${#failed[@]} = 0 ] || echo "failed stages: $(IFS=,; echo "${failed[*]}")"
+echo "tests: $((rust_ran + python_ran)) ran ($rust_ran Rust, $python_ran Python), $((rust_failed + python_failed)) failed," \
+    "$((rust_skipped + python_skipped)) skipped, in $SECONDS s"
+[ ${#failed[@]} = 0 ] && [ "$rust_ran" -gt 0 ] && [ "$python_ran" -gt 0 ]

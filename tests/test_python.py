@@ -1,0 +1,476 @@
+"""The Python face: what goes in, what comes out, how it fails, and that it keeps the interpreter free."""
+
+from __future__ import annotations
+
+import ast
+import datetime
+import importlib.util
+import inspect
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import time
+import _thread
+from collections.abc import Iterator
+from typing import Any
+
+import numpy
+import pytest
+
+import skyprobe as sp
+from skyprobe import _core
+from skyprobe import mitsuba as sp_mitsuba
+
+DIRECTIONS = numpy.array([[0.0, 0.0, 1.0], [0.0, -0.6, 0.8], [1.0, 0.0, 0.0]])
+WAVELENGTHS_NM = numpy.array([450.0, 550.0, 650.0])
+
+
+@pytest.fixture(scope="module")
+def air() -> sp.Atmosphere:
+    return sp.Atmosphere(quality="draft")
+
+
+@pytest.fixture(scope="module")
+def sky(air: sp.Atmosphere) -> sp.Sky:
+    return sp.Sky(latitude=55.71, longitude=13.19, elevation_m=20, time="2005-06-21T13:00:00+02:00", atmosphere=air)
+
+
+@pytest.fixture(scope="module")
+def probe(sky: sp.Sky) -> sp.Probe:
+    return sky.render(width=64)
+
+
+@pytest.fixture(scope="module")
+def whole_solve() -> tuple[float, int]:
+    """How long a solve at standard quality takes here [s], and how often another thread had its turn meanwhile (200 times a second at most)."""
+    air = sp.Atmosphere(quality="standard")
+    turns = 0
+    done = threading.Event()
+
+    def count() -> None:
+        nonlocal turns
+        while not done.wait(0.005):
+            turns += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begin = time.perf_counter()
+    air.solve()
+    seconds = time.perf_counter() - begin
+    done.set()
+    thread.join()
+    return seconds, turns
+
+
+def test_the_example_of_the_documentation_runs(tmp_path: pathlib.Path) -> None:
+    air = sp.Atmosphere(
+        preset="clear", aerosol="continental_clean", aod550=0.1, ozone_du=300, ground="grass", quality="draft", polarisation=False
+    )
+    sky = sp.Sky(latitude=55.71, longitude=13.19, elevation_m=20, time="2005-06-21T13:00:00+02:00", atmosphere=air)
+    assert sky.sun.name == "Sun"
+    assert 57.0 < sky.sun.altitude_deg < sky.sun.apparent_altitude_deg < 58.0
+    assert 170.0 < sky.sun.azimuth_deg < 180.0
+    assert [body.name for body in sky.bodies()] == ["Sun"]
+    probe = sky.render(width=128, scale="blender", color_space="lin_rec709", sun_disc=True, progress=lambda stage, fraction: None)
+    assert probe.pixels.shape == (64, 128, 3)
+    for name in ["sky.exr", "sky.hdr", "sky.png"]:
+        probe.save(tmp_path / name)
+        assert (tmp_path / name).stat().st_size > 100
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_arrays_have_the_documented_shapes_and_types(sky: sp.Sky, probe: sp.Probe) -> None:
+    radiance = sky.spectral_radiance(DIRECTIONS, WAVELENGTHS_NM)
+    assert radiance.shape == (3, 3) and radiance.dtype == numpy.float64
+    assert numpy.isfinite(radiance).all() and (radiance > 0).all()
+    # Anything that numpy takes will do.
+    again = sky.spectral_radiance(DIRECTIONS.astype(numpy.float32).tolist(), [450, 550, 650])
+    numpy.testing.assert_allclose(again, radiance, rtol=1e-4)
+    irradiance = sky.irradiance(WAVELENGTHS_NM)
+    for values in (irradiance.direct_normal, irradiance.direct_horizontal, irradiance.diffuse_horizontal):
+        assert values.shape == (3,) and values.dtype == numpy.float64 and (values > 0).all()
+    assert probe.pixels.shape == (32, 64, 3) and probe.pixels.dtype == numpy.float32
+    assert probe.pixels.flags.c_contiguous
+    assert (probe.width, probe.height, probe.projection, probe.rows) == (64, 32, "latlong", "centre")
+    assert len(sky.sun_irradiance_rgb(scale="luminance", color_space="xyz")) == 3
+
+
+def test_the_parts_of_the_light_belong_together(sky: sp.Sky) -> None:
+    sine = numpy.sin(numpy.radians(sky.sun.apparent_altitude_deg))
+    irradiance = sky.irradiance(WAVELENGTHS_NM)
+    numpy.testing.assert_allclose(irradiance.direct_horizontal, irradiance.direct_normal * sine, rtol=2e-3)
+    light = sky.illuminance()
+    assert light.global_horizontal_lx == pytest.approx(light.direct_horizontal_lx + light.diffuse_horizontal_lx)
+    # Y of the Sun in the three scales is the direct illuminance, by definition of the scales.
+    assert sky.sun_irradiance_rgb(scale="luminance", color_space="xyz")[1] == pytest.approx(light.direct_normal_lx, rel=1e-3)
+    assert sky.sun_irradiance_rgb(scale="blender", color_space="xyz")[1] * 683.0 == pytest.approx(light.direct_normal_lx, rel=1e-3)
+    # The probe's own integral agrees with what was computed without it.
+    probe = sky.render(width=256, scale="luminance", color_space="xyz")
+    assert probe.irradiance()[1] == pytest.approx(light.global_horizontal_lx, rel=3e-3)
+    assert probe.irradiance([0.0, 0.0, 2.0]) == pytest.approx(probe.irradiance())
+
+
+def test_pixels_are_one_array_and_saving_sees_what_is_written_to_it(sky: sp.Sky, tmp_path: pathlib.Path) -> None:
+    probe = sky.render(width=64, sun_disc=False)
+    probe.save(tmp_path / "before.hdr")
+    assert probe.pixels is probe.pixels
+    probe.save(tmp_path / "same.hdr")
+    assert (tmp_path / "same.hdr").read_bytes() == (tmp_path / "before.hdr").read_bytes()
+    up = probe.irradiance()
+    probe.pixels[...] *= 2.0
+    assert probe.irradiance() == pytest.approx([2.0 * value for value in up])
+    probe.save(tmp_path / "after.hdr")
+    assert (tmp_path / "after.hdr").read_bytes() != (tmp_path / "before.hdr").read_bytes()
+    probe.pixels[0, 0, 0] = numpy.nan
+    with pytest.raises(sp.DataError, match="not finite"):
+        probe.save(tmp_path / "nan.exr")
+    assert not (tmp_path / "nan.exr").exists()
+
+
+def test_pixels_outlive_their_probe(sky: sp.Sky) -> None:
+    pixels = sky.render(width=64, sun_disc=False).pixels
+    assert numpy.isfinite(pixels).all() and pixels.max() > 0
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"latitude": 91.0}, r"latitude = 91: must be a number from -90 to 90 degrees"),
+        ({"longitude": float("nan")}, r"longitude = NaN: must be"),
+        ({"elevation_m": 1e6}, r"elevation_m = 1000000: must be"),
+        ({"time": "yesterday"}, r'time = "yesterday": must be'),
+        ({"time": datetime.datetime(2005, 6, 21, 13)}, r"time = .*: must be a datetime with a time zone"),
+        ({"time": 12}, r"time = 12: must be a text or a datetime"),
+        ({"zone": "Mars/Olympus"}, r'zone = "Mars/Olympus": must be'),
+        ({"sun_model": "flat"}, r'sun_model = "flat": must be iau or thesis'),
+    ],
+)
+def test_a_wrong_place_or_time_is_named(air: sp.Atmosphere, keywords: dict[str, object], message: str) -> None:
+    given: dict[str, object] = {"latitude": 55.71, "longitude": 13.19, "time": "2005-06-21T13:00:00+02:00", "atmosphere": air}
+    with pytest.raises(sp.InputError, match=message) as caught:
+        sp.Sky(**(given | keywords))  # type: ignore[arg-type]
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"turbidity": -1}, r"turbidity = -1: must be a number from 1 to 64"),
+        ({"aod550": float("nan")}, r"aod550 = NaN: must be"),
+        ({"aod550": 0.1, "turbidity": 3}, r"turbidity = 3: must be left out when aod550 is given"),
+        ({"aerosol": "smoke"}, r'aerosol = "smoke": must be one of none, continental_clean'),
+        ({"preset": "nice"}, r'preset = "nice": must be one of'),
+        ({"ground": "lava"}, r'ground = "lava": must be one of'),
+        ({"ground": 1.5}, r"ground = 1.5: must be"),
+        ({"ground": None, "quality": "best"}, r'quality = "best": must be'),
+        ({"polarisation": True}, r"polarisation = true: must be"),
+    ],
+)
+def test_wrong_air_is_named(keywords: dict[str, object], message: str) -> None:
+    with pytest.raises(sp.InputError, match=message):
+        sp.Atmosphere(**keywords)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"width": 0}, r"width = 0: must be a number from 64 to 16384 pixels"),
+        ({"width": -5}, r"width = -5: must be"),
+        ({"width": 65}, r"width = 65: must be even"),
+        ({"scale": "nits"}, r'scale = "nits": must be'),
+        ({"color_space": "srgb"}, r'color_space = "srgb": must be'),
+        ({"rows": "center"}, r'rows = "center": must be centre or corner'),
+        ({"gamut": "wide"}, r'gamut = "wide": must be'),
+    ],
+)
+def test_a_wrong_image_is_named(sky: sp.Sky, keywords: dict[str, object], message: str) -> None:
+    with pytest.raises(sp.InputError, match=message):
+        sky.render(**keywords)  # type: ignore[arg-type]
+
+
+def test_wrong_arrays_are_named(sky: sp.Sky, probe: sp.Probe) -> None:
+    wrong_directions: list[tuple[Any, str]] = [
+        ([[0.0, 0.0, 2.0]], r"directions\[0\] = \(0, 0, 2\): must be a vector of length 1"),
+        ([[0.0, 0.0, float("nan")]], r"directions\[0\] = "),
+        ([[0.0, 1.0]], r"directions = array of shape \(1, 2\): must be an array of shape \(N, 3\)"),
+        ("up", r"directions = .*must be an array of numbers"),
+    ]
+    for directions, message in wrong_directions:
+        with pytest.raises(sp.InputError, match=message):
+            sky.spectral_radiance(directions, WAVELENGTHS_NM)
+    wrong_wavelengths: list[Any] = [[[550.0]], [float("nan")], [10.0]]
+    for wavelengths_nm in wrong_wavelengths:
+        with pytest.raises(sp.InputError, match="wavelengths_nm"):
+            sky.irradiance(wavelengths_nm)
+    with pytest.raises(sp.InputError, match="normal"):
+        probe.irradiance([0.0, 0.0, 0.0])
+
+
+def test_files_fail_as_files_do(sky: sp.Sky, probe: sp.Probe, tmp_path: pathlib.Path) -> None:
+    with pytest.raises(OSError, match="nowhere"):
+        probe.save(tmp_path / "nowhere" / "sky.exr")
+    (tmp_path / "folder.exr").mkdir()
+    with pytest.raises(OSError, match="directory"):
+        probe.save(tmp_path / "folder.exr")
+    with pytest.raises(sp.InputError, match=r"\.exr, \.hdr or \.png"):
+        probe.save(tmp_path / "sky.jpg")
+    with pytest.raises(sp.InputError, match="half"):
+        probe.save(tmp_path / "sky.exr", half="maybe")  # type: ignore[arg-type]
+    bright = sky.render(width=64)
+    bright.pixels[0, 0, 0] = 1e6
+    with pytest.raises(sp.InputError, match="65504"):
+        bright.save(tmp_path / "sky.exr", half=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["folder.exr"]
+
+
+def test_times_are_aware_and_the_zone_is_that_of_the_place(air: sp.Atmosphere) -> None:
+    here = {"latitude": 55.71, "longitude": 13.19, "atmosphere": air}
+    expected = datetime.datetime(2005, 6, 21, 11, tzinfo=datetime.timezone.utc)
+    local = sp.Sky(time="2005-06-21T13:00", **here)  # type: ignore[arg-type]
+    aware = sp.Sky(time=expected.astimezone(datetime.timezone(datetime.timedelta(hours=-4))), **here)  # type: ignore[arg-type]
+    assert local.time == aware.time == expected
+    assert local.zone == "Europe/Stockholm" and aware.zone is None
+    assert local.sun.altitude_deg == aware.sun.altitude_deg
+    events = local.sun_events()
+    assert events.sunrise is not None and events.sunset is not None
+    assert events.sunrise < events.solar_noon < events.sunset
+    assert events.solar_noon.date() == datetime.date(2005, 6, 21)
+    # In Lund the Sun does not sink to -18 degrees in June.
+    assert events.astronomical_dusk is None
+
+
+def test_a_sun_that_is_put_has_no_place(air: sp.Atmosphere) -> None:
+    sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, elevation_m=100, atmosphere=air)
+    assert (sky.sun.altitude_deg, sky.sun.azimuth_deg) == (30.0, 180.0)
+    assert (sky.latitude, sky.time, sky.zone, sky.elevation_m) == (None, None, None, 100.0)
+    assert sky.atmosphere is air
+    numpy.testing.assert_allclose(sky.sun.direction, [0.0, -numpy.sqrt(0.75), 0.5], atol=1e-12)
+    with pytest.raises(sp.InputError, match="place and time"):
+        sky.sun_events()
+    with pytest.raises(sp.InputError, match="altitude_deg = 95"):
+        sp.Sky.with_sun(altitude_deg=95.0, azimuth_deg=0.0, atmosphere=air)
+
+
+def profile(altitudes_km: numpy.ndarray, wavelengths_nm: numpy.ndarray) -> list[sp.Component]:
+    shape = (len(altitudes_km), len(wavelengths_nm))
+    fall = numpy.exp(-altitudes_km / 8.0)[:, None]
+    molecules = numpy.broadcast_to(0.0116 * fall, shape) * (550.0 / wavelengths_nm) ** 4
+    zeros = numpy.zeros(shape)
+    ozone = numpy.full(shape, 1e-4)
+    return [
+        sp.Component(scattering=molecules, absorption=zeros, phase=sp.Phase.rayleigh(depolarisation=0.0), name="molecules"),
+        sp.Component(scattering=0.01 * fall * numpy.ones(shape), absorption=zeros, phase=sp.Phase.henyey_greenstein(0.7)),
+        sp.Component(scattering=zeros, absorption=ozone, phase=None),
+    ]
+
+
+def test_an_air_given_in_full_gives_light() -> None:
+    altitudes_km = numpy.linspace(0.0, 60.0, 61)
+    air = sp.Atmosphere.from_profile(
+        altitudes_km, WAVELENGTHS_NM, components=profile(altitudes_km, WAVELENGTHS_NM), ground_albedo=0.25,
+        solar_irradiance=numpy.ones(3), planet_radius_km=6371.0, sun_angular_radius_deg=0.2664, quality="draft", polarisation=False,
+    )  # fmt: skip
+    numpy.testing.assert_array_equal(air.altitudes_km, altitudes_km)
+    numpy.testing.assert_array_equal(air.wavelengths_nm, WAVELENGTHS_NM)
+    sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, elevation_m=0, atmosphere=air)
+    zenith = sky.spectral_radiance([[0.0, 0.0, 1.0]], WAVELENGTHS_NM)[0]
+    assert zenith[0] > zenith[1] > zenith[2] > 0, "the sky is blue"
+    # Beer's law through the column (trapezoid rule, as the profile is linear between altitudes) at an air mass near 2.
+    coefficients = sum(getattr(numpy, "trapezoid")(values, altitudes_km, axis=0) for values in (
+        0.0116 * numpy.exp(-altitudes_km / 8.0)[:, None] * (550.0 / WAVELENGTHS_NM) ** 4,
+        0.01 * numpy.exp(-altitudes_km / 8.0)[:, None] * numpy.ones(3),
+        numpy.full((61, 3), 1e-4),
+    ))  # fmt: skip
+    numpy.testing.assert_allclose(sky.irradiance(WAVELENGTHS_NM).direct_normal, numpy.exp(-coefficients * 1.993), rtol=5e-3)
+
+
+def test_wrong_profiles_are_named() -> None:
+    altitudes_km = numpy.linspace(0.0, 60.0, 7)
+    components = profile(altitudes_km, WAVELENGTHS_NM)
+
+    def message(**changes: object) -> str:
+        given = {"altitudes_km": altitudes_km, "wavelengths_nm": WAVELENGTHS_NM, "components": components, "solar_irradiance": 1.0}
+        with pytest.raises(sp.InputError) as caught:
+            sp.Atmosphere.from_profile(**(given | changes))  # type: ignore[arg-type]
+        return str(caught.value)
+
+    assert message(altitudes_km=altitudes_km[::-1]).startswith("altitudes_km")
+    assert message(components=[]).startswith("components")
+    assert message(wavelengths_nm=[500.0, 600.0]).startswith("molecules.scattering = array of shape (7, 3)")
+    assert message(ground_albedo=2.0).startswith("ground_albedo = 2")
+    assert message(ground_albedo=[0.1, 0.2]).startswith("ground_albedo = array of shape (2)")
+    assert message(solar_irradiance=float("nan")).startswith("solar_irradiance = NaN")
+    assert message(planet_radius_km=-1.0).startswith("planet_radius_km = -1")
+    assert message(quality="best").startswith('quality = "best"')
+    with pytest.raises(sp.InputError, match="asymmetry = 1"):
+        sp.Phase.cornette_shanks(1.0)
+    with pytest.raises(sp.InputError, match="depolarisation = -1"):
+        sp.Phase.rayleigh([-1.0])
+
+
+def test_progress_is_told_on_the_calling_thread_and_reaches_the_end() -> None:
+    sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=sp.Atmosphere(quality="draft"))
+    heard: list[tuple[str, float, int]] = []
+    sky.render(width=64, progress=lambda stage, fraction: heard.append((stage, fraction, threading.get_ident())))
+    assert {thread for _, _, thread in heard} == {threading.get_ident()}
+    stages = list(dict.fromkeys(stage for stage, _, _ in heard))
+    assert stages[0] == "solve" and len(stages) > 1
+    for stage in stages:
+        fractions = [fraction for name, fraction, _ in heard if name == stage]
+        assert fractions == sorted(fractions) and 0.0 <= fractions[0] and fractions[-1] == 1.0, stage
+
+
+def test_false_from_the_callback_cancels_and_the_air_can_be_used_again(whole_solve: tuple[float, int]) -> None:
+    begin = time.perf_counter()
+    with pytest.raises(sp.Cancelled):
+        sp.Atmosphere(quality="standard").solve(progress=lambda stage, fraction: False)
+    assert time.perf_counter() - begin < 0.6 * whole_solve[0]
+    air = sp.Atmosphere(quality="draft")
+    with pytest.raises(sp.Cancelled):
+        air.solve(progress=lambda stage, fraction: False)
+    assert sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=air).illuminance().global_horizontal_lx > 0
+
+
+def test_an_exception_of_the_callback_arrives_as_it_is() -> None:
+    class Mine(Exception):
+        pass
+
+    def complain(stage: str, fraction: float) -> None:
+        raise Mine(stage)
+
+    with pytest.raises(Mine, match="solve"):
+        sp.Atmosphere(quality="draft").solve(complain)
+    with pytest.raises(TypeError):
+        sp.Atmosphere(quality="draft").solve(lambda: None)  # type: ignore[arg-type,misc]
+
+
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """A shell starts its background jobs with SIGINT ignored, and Python leaves it so: then there is nothing to interrupt with."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
+def test_ctrl_c_interrupts_the_work(whole_solve: tuple[float, int]) -> None:
+    air = sp.Atmosphere(quality="standard")
+    threading.Timer(0.05, _thread.interrupt_main).start()
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        air.solve()
+        time.sleep(5.0)
+    assert time.perf_counter() - begin < 0.8 * whole_solve[0]
+
+
+def test_other_threads_run_during_the_work(whole_solve: tuple[float, int]) -> None:
+    seconds, turns = whole_solve
+    # With the interpreter held there would be no turn at all; the machine may be busy, so a fifth of them will do.
+    assert turns > seconds / 0.005 / 5, f"{turns} turns in {seconds} s"
+
+
+def test_several_threads_may_use_one_air(air: sp.Atmosphere) -> None:
+    def zenith(altitude_deg: float) -> float:
+        sky = sp.Sky.with_sun(altitude_deg=altitude_deg, azimuth_deg=0.0, atmosphere=air)
+        return float(sky.spectral_radiance([0.0, 0.0, 1.0], [550.0])[0, 0])
+
+    altitudes = [5.0, 20.0, 40.0, 60.0]
+    results: dict[float, float] = {}
+    threads = [threading.Thread(target=lambda a=a: results.update({a: zenith(a)})) for a in altitudes]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert results == {altitude: zenith(altitude) for altitude in altitudes}
+
+
+def test_the_command_line_is_the_same_from_python(tmp_path: pathlib.Path) -> None:
+    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([sys.executable, "-m", "skyprobe", *arguments], capture_output=True, text=True, cwd=tmp_path, check=False)
+
+    good = run("render", "--sun-altitude", "30", "--sun-azimuth", "180", "--quality", "draft", "--width", "64", "-o", "sky.exr")
+    assert (good.returncode, good.stderr) == (0, "")
+    assert (tmp_path / "sky.exr").is_file()
+    bad = run("render", "--lat", "91", "--lon", "0", "--time", "2005-06-21T13:00Z", "-o", "bad.exr")
+    assert bad.returncode == 2
+    assert bad.stderr == "error: latitude = 91: must be a number from -90 to 90 degrees\n"
+    assert not (tmp_path / "bad.exr").exists()
+
+
+def test_the_transform_for_mitsuba_puts_the_sky_upright_and_north_to_the_north() -> None:
+    def image_direction(azimuth_deg: float, altitude_deg: float) -> numpy.ndarray:
+        """Mitsuba's direction for a point of our map: u = 1/4 + azimuth / 360 = 1/2 + atan2(x, -z) / (2 pi), measured as +Z centred."""
+        turn = 2.0 * numpy.pi * (0.25 + azimuth_deg / 360.0 - 0.5)
+        altitude = numpy.radians(altitude_deg)
+        return numpy.array([-numpy.sin(turn) * numpy.cos(altitude), numpy.sin(altitude), numpy.cos(turn) * numpy.cos(altitude)])
+
+    z_up, y_up = sp_mitsuba.to_world()[:3, :3], sp_mitsuba.to_world("y")[:3, :3]
+    for azimuth, altitude in [(0, 0), (90, 0), (180, 20), (270, 0), (37, 50)]:
+        a, h = numpy.radians(azimuth), numpy.radians(altitude)
+        east, north, up = numpy.sin(a) * numpy.cos(h), numpy.cos(a) * numpy.cos(h), numpy.sin(h)
+        numpy.testing.assert_allclose(z_up @ image_direction(azimuth, altitude), [east, north, up], atol=1e-12)
+        numpy.testing.assert_allclose(y_up @ image_direction(azimuth, altitude), [east, up, -north], atol=1e-12)
+        for up_axis, expected in [("z", [north, -east, up]), ("y", [north, up, east])]:
+            turned = sp_mitsuba.to_world(up_axis, north_deg=90.0)[:3, :3]
+            numpy.testing.assert_allclose(turned @ image_direction(azimuth, altitude), expected, atol=1e-12)
+    with pytest.raises(sp.InputError, match="up = 'x'"):
+        sp_mitsuba.to_world("x")
+
+
+def test_documentation_is_the_same_in_the_stubs_and_at_run_time() -> None:
+    stubs = ast.parse((pathlib.Path(sp.__file__).parent / "_core.pyi").read_text(encoding="utf-8"))
+    seen = 0
+    for node in stubs.body:
+        if not isinstance(node, ast.ClassDef):
+            continue
+        members: list[tuple[ast.ClassDef | ast.FunctionDef, Any]] = [(node, getattr(_core, node.name))]
+        members += [
+            (member, inspect.getattr_static(getattr(_core, node.name), member.name))
+            for member in node.body
+            if isinstance(member, ast.FunctionDef) and member.name != "__new__"
+        ]
+        for stub, actual in members:
+            actual = getattr(actual, "__func__", actual)
+            assert inspect.cleandoc(actual.__doc__ or "") == ast.get_docstring(stub), f"{node.name}.{stub.name}"
+            seen += 1
+    assert seen > 60
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+def test_the_stubs_agree_with_the_module(tmp_path: pathlib.Path) -> None:
+    check = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "skyprobe._core"], capture_output=True, text=True, cwd=tmp_path, check=False
+    )
+    assert check.returncode == 0, check.stdout + check.stderr
+
+
+@pytest.mark.parametrize("up", ["z", "y"])
+def test_mitsuba_sees_the_sky_where_it_is(air: sp.Atmosphere, tmp_path: pathlib.Path, up: str) -> None:
+    mitsuba = pytest.importorskip("mitsuba")
+    mitsuba.set_variant("scalar_rgb")
+    sky = sp.Sky.with_sun(altitude_deg=40.0, azimuth_deg=120.0, atmosphere=air)
+    probe = sky.render(width=256, rows="corner", sun_disc=False)
+    probe.save(tmp_path / "sky.exr")
+    column = int((0.25 + 120.0 / 360.0) * 256)
+    for source in (probe, tmp_path / "sky.exr"):
+        emitter = mitsuba.load_dict(sp_mitsuba.envmap(source, up=up, scale=2.0))
+        for altitude_deg in (10.0, 40.0, 80.0):
+            azimuth, altitude = numpy.radians((column + 0.5) / 256 * 360.0 - 90.0), numpy.radians(altitude_deg)
+            east, north, height = (
+                numpy.sin(azimuth) * numpy.cos(altitude),
+                numpy.cos(azimuth) * numpy.cos(altitude),
+                numpy.sin(altitude),
+            )
+            seen = mitsuba.SurfaceInteraction3f()
+            seen.wi = mitsuba.Vector3f(*[-v for v in ([east, north, height] if up == "z" else [east, height, -north])])
+            row = (1.0 - altitude_deg / 90.0) * 0.5 * (probe.height - 1)
+            low = int(row)
+            share = row - low
+            expected = 2.0 * ((1 - share) * probe.pixels[low, column] + share * probe.pixels[low + 1, column])
+            numpy.testing.assert_allclose(numpy.array(emitter.eval(seen)), expected, rtol=2e-3)
+    with pytest.raises(sp.InputError, match="full latlong"):
+        sp_mitsuba.envmap(sky.render(width=64, projection="fisheye"))
+    with pytest.warns(UserWarning, match='rows="corner"'):
+        sp_mitsuba.envmap(sky.render(width=64))
