@@ -148,7 +148,10 @@ fn disc_error(theta: f64, azimuth: f64, settings: &ProbeSettings) -> f64 {
         }
     }
     let pixel = grid.reach() / settings.height() as f64;
-    let shared = if settings.rows == Rows::Corner {
+    let shared = if settings.projection == Projection::Fisheye {
+        // Square pixels twice as wide, and the fit may reach a neighbour across the corner: one diagonal and a half.
+        2.2 * 2.0 * pixel
+    } else if settings.rows == Rows::Corner {
         1.5 * pixel
     } else if settings.height() % 2 == 1 {
         pixel
