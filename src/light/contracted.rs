@@ -22,6 +22,9 @@ const POLARISED_TERMS: usize = 5;
 /// Orders that scatter less than this part of all light at a point are left out there.
 const NEGLIGIBLE: f32 = 1e-5;
 
+/// Logarithm of no light at all.
+const DARK: f32 = -100.0;
+
 /// Work space: for one point of a ray, what remains when altitude, l and components are summed.
 pub struct Contracted<const N: usize> {
     shape: Shape,
@@ -30,7 +33,9 @@ pub struct Contracted<const N: usize> {
     log_magnitudes: Vec<f32>,
     /// Highest m at the point.
     azimuthal: usize,
-    stencils: Vec<(f32, Stencil)>,
+    /// Work space by position of the Sun and azimuth.
+    stencils: Vec<Stencil>,
+    magnitudes: Vec<f32>,
 }
 
 impl<const N: usize> Contracted<N> {
@@ -44,6 +49,7 @@ impl<const N: usize> Contracted<N> {
             log_magnitudes: vec![0.0; n],
             azimuthal: 0,
             stencils: Vec::new(),
+            magnitudes: Vec::new(),
         }
     }
 
@@ -85,10 +91,10 @@ impl<const N: usize> Contracted<N> {
         let count = self.shape.count();
         let factors = DipoleSource::new(point.zenith_cosine);
         for j in range {
-            let logs: [f32; 4] = std::array::from_fn(|k| source.log_magnitudes[(cubic.first + k) * zeniths + j]);
+            let logs = [0, 1, 2, 3].map(|k| source.log_magnitudes[(cubic.first + k) * zeniths + j]);
             self.log_magnitudes[j] =
                 log_magnitude(&Stencil { first: 0, inner: cubic.interval - cubic.first, weights: cubic.weights }, &logs);
-            let nodes: [&[Lanes<N>]; 4] = std::array::from_fn(|k| {
+            let nodes: [&[Lanes<N>]; 4] = [0, 1, 2, 3].map(|k| {
                 let start = ((cubic.first + k) * zeniths + j) * count;
                 &source.values[start..start + count]
             });
@@ -108,14 +114,13 @@ impl<const N: usize> Contracted<N> {
             }
             if polarised {
                 let w = cubic.weights;
-                let tensor: [Lanes<N>; TENSOR] = std::array::from_fn(|t| {
+                let mut tensor = [splat::<N>(0.0); TENSOR];
+                for (t, value) in tensor.iter_mut().enumerate() {
                     let [a, b, c, d] = nodes.map(|node| &node[count - TENSOR + t]);
-                    let mut value = splat(0.0);
                     for n in 0..N {
                         value[n] = dipole[n] * ((w[0] * a[n] + w[1] * b[n]) + (w[2] * c[n] + w[3] * d[n]));
                     }
-                    value
-                });
+                }
                 let (i, qu) = terms.split_at_mut(orders.azimuthal + 1);
                 add_dipole(&factors, &tensor, i, qu);
             }
@@ -127,17 +132,23 @@ impl<const N: usize> Contracted<N> {
     pub fn add(&mut self, grid: &Grid, suns: &Suns, sums: &mut [Lanes<N>]) {
         let stride = Self::stride(self.shape);
         let first_polarised = self.shape.orders.azimuthal + 1;
-        self.stencils.clear();
-        self.stencils.extend(suns.positions.iter().map(|&position| {
-            if position < 0.0 {
-                return (0.0, Stencil::default());
-            }
-            let stencil = grid.zeniths.stencil(position);
-            (exp_one(log_magnitude(&stencil, &self.log_magnitudes)), stencil)
-        }));
+        let n = suns.positions.len();
+        self.magnitudes.resize(n, 0.0);
+        self.stencils.resize(n, Stencil::default());
+        let logs = &mut self.magnitudes[..n];
+        for k in 0..n {
+            let stencil = grid.zeniths.stencil(suns.positions[k].max(0.0));
+            let log = log_magnitude(&stencil, &self.log_magnitudes);
+            logs[k] = if suns.positions[k] < 0.0 { DARK } else { log };
+            self.stencils[k] = stencil;
+        }
+        for k in 0..n {
+            logs[k] = exp_one(logs[k]);
+        }
         let stokes = if self.shape.polarised { 3 } else { 1 };
-        for (k, ((magnitude, stencil), sum)) in self.stencils.iter().zip(sums.chunks_exact_mut(stokes)).enumerate() {
-            if *magnitude < 4.0 * FLOOR {
+        for (k, sum) in sums.chunks_exact_mut(stokes).enumerate() {
+            let (magnitude, stencil) = (self.magnitudes[k], &self.stencils[k]);
+            if magnitude < 4.0 * FLOOR {
                 continue;
             }
             let weights = stencil.weights.map(|w| w * magnitude);
@@ -145,18 +156,23 @@ impl<const N: usize> Contracted<N> {
             let (cosine, sine) = (suns.azimuth_cosines[k], suns.azimuth_sines[k]);
             // cos(m p) by Chebyshev's recurrence.
             let (mut before, mut now) = (cosine, 1.0_f32);
+            let mut i = sum[0];
             for m in 0..=self.azimuthal {
-                add_term(&mut sum[0], weights, now, nodes, stride, m);
+                add_term(&mut i, weights, now, nodes, stride, m);
                 (before, now) = (now, 2.0 * cosine * now - before);
             }
-            if let [_, q, u] = sum {
+            sum[0] = i;
+            if let [_, q_sum, u_sum] = sum {
                 let double = 2.0 * cosine * cosine - 1.0;
-                for (wave, term) in [(1.0, 0), (cosine, 1), (double, 2)] {
-                    add_term(q, weights, wave, nodes, stride, first_polarised + term);
-                }
-                for (wave, term) in [(sine, 3), (2.0 * sine * cosine, 4)] {
-                    add_term(u, weights, wave, nodes, stride, first_polarised + term);
-                }
+                let mut q = *q_sum;
+                add_term(&mut q, weights, 1.0, nodes, stride, first_polarised);
+                add_term(&mut q, weights, cosine, nodes, stride, first_polarised + 1);
+                add_term(&mut q, weights, double, nodes, stride, first_polarised + 2);
+                *q_sum = q;
+                let mut u = *u_sum;
+                add_term(&mut u, weights, sine, nodes, stride, first_polarised + 3);
+                add_term(&mut u, weights, 2.0 * sine * cosine, nodes, stride, first_polarised + 4);
+                *u_sum = u;
             }
         }
     }

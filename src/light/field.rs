@@ -84,13 +84,13 @@ impl LightField {
         let wavelengths = profile.wavelengths_nm.len();
         let top = *profile.altitudes_km.last().expect("validated profile");
         let limits = StepLimits::new(numbers, profile.planet_radius_km);
-        let grid = Grid::new(numbers, profile.planet_radius_km, top);
+        let [grid, iteration_grid] = Grid::new(numbers, profile.planet_radius_km, top);
         let count = wavelengths.div_ceil(LANES);
         let mut blocks = Vec::with_capacity(count);
         for block in 0..count {
             let air = Air::new(profile, block * LANES, numbers.order, polarised);
             let report = |fraction: f64| progress.report("solve", (block as f64 + fraction) / count as f64);
-            blocks.push(solve(air, &grid, numbers, polarised, limits, &report)?);
+            blocks.push(solve(air, &grid, &iteration_grid, numbers, polarised, limits, &report)?);
         }
         let phases = profile.components.iter().filter_map(|component| component.phase.as_ref());
         let functions = phases.map(|phase| AngularFunctions::new(phase, wavelengths, numbers.order)).collect::<Vec<_>>();
@@ -112,8 +112,12 @@ impl LightField {
         let components = self.functions.len();
         let stokes = if self.polarised { 3 } else { 1 };
         let stride = 2 * components + stokes;
-        let mut out =
-            Gathered { wavelengths: self.wavelengths, components, stokes, values: vec![0.0; azimuths.len() * stride * self.wavelengths] };
+        let mut out = Gathered {
+            wavelengths: self.wavelengths,
+            components,
+            stokes,
+            values: vec![0.0; azimuths.len() * stride * self.wavelengths],
+        };
         let mut parts = vec![splat::<LANES>(0.0); azimuths.len() * stride];
         for (b, block) in self.blocks.iter().enumerate() {
             parts.fill(splat(0.0));
@@ -170,14 +174,7 @@ impl LightField {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
-fn gather_block(
-    grid: &Grid,
-    block: &Block,
-    ray: &Ray<LANES>,
-    sun_zenith: f64,
-    azimuths: &[f64],
-    parts: &mut [Lanes<LANES>],
-) {
+fn gather_block(grid: &Grid, block: &Block, ray: &Ray<LANES>, sun_zenith: f64, azimuths: &[f64], parts: &mut [Lanes<LANES>]) {
     let (air, sunlight, field) = (&block.air, &block.sunlight, &block.field);
     let paths = 2 * air.scatterers().len();
     let stokes = if field.shape.polarised { 3 } else { 1 };

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Grid {
     /// Altitude levels [km], dense near the ground.
     pub altitudes: Axis,
-    /// Every other level [km]: steps of rays end there, and hold two points each.
+    /// Steps of rays end at these altitudes [km], and hold two points each.
     pub shells: Axis,
     /// Solar zenith angles, dense around the terminator.
     pub zeniths: ZenithAxis,
@@ -51,18 +51,21 @@ pub fn azimuth_interpolation(from: &[Azimuth], to: &[Azimuth]) -> Vec<f32> {
 }
 
 impl Grid {
-    /// The grid of a quality level for air that ends at `top` [km] over ground of `radius` [km].
-    pub fn new(numbers: &Numbers, radius: f64, top: f64) -> Self {
-        let last = (numbers.altitudes - 1) as f64;
-        let levels: Vec<f64> = (0..numbers.altitudes).map(|i| top * (i as f64 / last).powf(2.2)).collect();
-        let mut shells: Vec<f64> = levels.iter().copied().step_by(2).collect();
-        if shells.last() != levels.last() {
-            shells.push(top);
-        }
-        let (altitudes, shells) = (Axis::new(levels), Axis::new(shells));
-        let zeniths = ZenithAxis::new(numbers.solar_zenith_angles);
-        let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
-        Self { altitudes, shells, zeniths, sun, radius }
+    /// The grid of a quality level for air that ends at `top` [km] over ground of `radius` [km], and the coarser one on which low orders are iterated.
+    pub fn new(numbers: &Numbers, radius: f64, top: f64) -> [Self; 2] {
+        let spread = |count: usize| {
+            let last = (count - 1) as f64;
+            Axis::new((0..count).map(|i| top * (i as f64 / last).powf(2.2)).collect())
+        };
+        let make = |altitudes: usize, solar_zenith_angles: usize| {
+            let zeniths = ZenithAxis::new(solar_zenith_angles);
+            let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
+            Self { altitudes: spread(altitudes), shells: spread(numbers.shells), zeniths, sun, radius }
+        };
+        [
+            make(numbers.altitudes, numbers.solar_zenith_angles),
+            make(numbers.iteration_altitudes, numbers.iteration_solar_zenith_angles),
+        ]
     }
 
     /// View zenith cosines with their weights for each level; `nodes` rising, between the horizontal and the horizon, and to the ground.

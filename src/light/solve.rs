@@ -48,19 +48,19 @@ pub struct Block {
 
 /// What an application of the operator needs.
 struct Operator<'a> {
-    grid: &'a Grid,
     air: &'a Air<LANES>,
     sunlight: &'a Sunlight<LANES>,
 }
 
-/// The directions at each altitude level with their weights, and the rays that follow them.
-struct Rays {
+/// Where an application of the operator looks: the directions at each altitude level of a grid with their weights, and the rays that follow them.
+struct Target<'a> {
+    grid: &'a Grid,
     directions: Vec<Vec<(f64, f64)>>,
     rays: Vec<Vec<Ray<LANES>>>,
 }
 
-impl Rays {
-    fn trace(grid: &Grid, air: &Air<LANES>, nodes: [usize; 3], limits: StepLimits) -> Self {
+impl<'a> Target<'a> {
+    fn new(grid: &'a Grid, air: &Air<LANES>, nodes: [usize; 3], limits: StepLimits) -> Self {
         let directions = grid.directions(nodes);
         let rays = grid
             .altitudes
@@ -69,17 +69,18 @@ impl Rays {
             .zip(&directions)
             .map(|(&z, directions)| directions.iter().map(|&(mu, _)| Ray::trace(air, &grid.shells, z, mu, limits)).collect())
             .collect();
-        Self { directions, rays }
+        Self { grid, directions, rays }
     }
 }
 
-/// Solves the block of `air`.
+/// Solves the block of `air`: the low orders on the coarser `iteration_grid` until they agree with themselves, then all on `grid`.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
 pub fn solve(
     air: Air<LANES>,
     grid: &Grid,
+    iteration_grid: &Grid,
     numbers: &Numbers,
     polarised: bool,
     limits: StepLimits,
@@ -87,34 +88,39 @@ pub fn solve(
 ) -> Result<Block> {
     let sunlight = Sunlight::new(&air);
     progress(0.05)?;
-    let coarse = Rays::trace(grid, &air, numbers.iteration_zenith_nodes, limits);
-    let fine = Rays::trace(grid, &air, numbers.zenith_nodes, limits);
-    let operator = Operator { grid, air: &air, sunlight: &sunlight };
+    let operator = Operator { air: &air, sunlight: &sunlight };
     let [few, many] = numbers.azimuth_nodes.map(azimuths);
     let shape = Shape { orders: Orders::new(numbers.order, numbers.azimuthal_order), polarised };
-
     let stage = |from: f64, to: f64| Stage { progress, from, to };
-    let once = {
-        let finest = Rays::trace(grid, &air, numbers.zenith_nodes.map(|n| n * SUNLIT_DENSITY), limits);
-        operator.scatter_sunlight(&finest, shape, &many, &azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY), &stage(0.05, 0.3))?
-    };
-    let once_low = once.truncated(LOW_ORDER);
-    let mut field = once_low.clone();
+
+    let coarse = Target::new(iteration_grid, &air, numbers.iteration_zenith_nodes, limits);
+    let once = operator.scatter_sunlight(&coarse, shape.truncated(LOW_ORDER), &many, &many, &stage(0.05, 0.15))?;
+    let mut low = once.clone();
     let mut anderson = Anderson::new();
     for iteration in 0..MAX_ITERATIONS {
         // How many iterations there will be is not known: each takes an eighth of what is left of this part.
-        let part = |iteration: usize| 0.7 - 0.4 * 0.875_f64.powi(iteration as i32);
-        let mut next = operator.scatter(&coarse, &field, field.shape, &few, &stage(part(iteration), part(iteration + 1)))?;
-        next.add(&once_low);
-        let change = anderson.step(&mut field, next, iteration >= 1);
+        let part = |iteration: usize| 0.4 - 0.25 * 0.875_f64.powi(iteration as i32);
+        let mut next =
+            operator.scatter(&coarse, (iteration_grid, &low), low.shape, &few, &stage(part(iteration), part(iteration + 1)))?;
+        next.add(&once);
+        let change = anderson.step(&mut low, next, iteration >= 1);
         if change < numbers.convergence {
             break;
         }
     }
+
+    let once = {
+        let finest = Target::new(grid, &air, numbers.zenith_nodes.map(|n| n * SUNLIT_DENSITY), limits);
+        let azimuths = azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY);
+        operator.scatter_sunlight(&finest, shape, &many, &azimuths, &stage(0.4, 0.55))?
+    };
+    let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
+    let (mut source_grid, mut field) = (iteration_grid, low);
     for application in 0..numbers.full_applications {
-        let part = |application: usize| 0.7 + 0.3 * application as f64 / numbers.full_applications as f64;
-        field = operator.scatter(&fine, &field, shape, &many, &stage(part(application), part(application + 1)))?;
+        let part = |application: usize| 0.55 + 0.45 * application as f64 / numbers.full_applications as f64;
+        field = operator.scatter(&fine, (source_grid, &field), shape, &many, &stage(part(application), part(application + 1)))?;
         field.add(&once);
+        source_grid = grid;
     }
     let field = Relative::new(&field);
     Ok(Block { air, sunlight, field })
@@ -134,62 +140,75 @@ fn stokes(shape: Shape) -> usize {
 
 impl Operator<'_> {
     /// The field of sunlight scattered once and of sunlight reflected by the ground.
-    fn scatter_sunlight(&self, rays: &Rays, shape: Shape, few: &[Azimuth], many: &[Azimuth], stage: &Stage) -> Result<Field<LANES>> {
-        let azimuths = Azimuths { few, many, interpolation: azimuth_interpolation(few, many) };
-        self.collect(rays, shape, many, stage, |level, direction, radiance| {
-            sunlit_radiance(self.grid, self.air, self.sunlight, &azimuths, stokes(shape), &rays.rays[level][direction], radiance);
-        })
-    }
-
-    /// The field, as `shape` says, of the light of `field` scattered or reflected once more.
-    fn scatter(&self, rays: &Rays, field: &Field<LANES>, shape: Shape, azimuths: &[Azimuth], stage: &Stage) -> Result<Field<LANES>> {
-        let source = Relative::new(field);
-        self.collect(rays, shape, azimuths, stage, |level, direction, radiance| {
-            scattered_radiance(self.grid, &source, self.air, azimuths, &rays.rays[level][direction], radiance);
-        })
-    }
-
-    /// The field of a radiance that `radiance_of(level, direction, out)` gives for all solar zenith angles, azimuths and Stokes parameters.
-    fn collect(
+    fn scatter_sunlight(
         &self,
-        rays: &Rays,
+        target: &Target,
+        shape: Shape,
+        few: &[Azimuth],
+        many: &[Azimuth],
+        stage: &Stage,
+    ) -> Result<Field<LANES>> {
+        let azimuths = Azimuths { few, many, interpolation: azimuth_interpolation(few, many) };
+        collect(target, shape, many, stage, |ray, radiance| {
+            sunlit_radiance(target.grid, self.air, self.sunlight, &azimuths, stokes(shape), ray, radiance);
+        })
+    }
+
+    /// The field, as `shape` says, of the light of `field`, known on a grid, scattered or reflected once more.
+    fn scatter(
+        &self,
+        target: &Target,
+        (grid, field): (&Grid, &Field<LANES>),
         shape: Shape,
         azimuths: &[Azimuth],
         stage: &Stage,
-        radiance_of: impl Fn(usize, usize, &mut [Lanes<LANES>]) + Sync,
     ) -> Result<Field<LANES>> {
-        let zeniths = self.grid.zeniths.len();
-        let stokes = stokes(shape);
-        let width = azimuths.len() * stokes;
-        let mut field = Field::dark(self.grid, shape);
-        let (done, levels) = (AtomicUsize::new(0), self.grid.altitudes.len());
-        let at_ground = field
-            .values
-            .par_chunks_exact_mut(zeniths * shape.count())
-            .enumerate()
-            .map(|(level, values)| {
-                let mut radiance = vec![splat(0.0); zeniths * width];
-                let mut irradiance = vec![splat(0.0); zeniths];
-                for (direction, &(mu, weight)) in rays.directions[level].iter().enumerate() {
-                    radiance.fill(splat(0.0));
-                    radiance_of(level, direction, &mut radiance);
-                    project(shape, mu, weight, azimuths, &radiance, values);
-                    if level == 0 && mu > 0.0 {
-                        for (total, row) in irradiance.iter_mut().zip(radiance.chunks_exact(width)) {
-                            for (azimuth, value) in azimuths.iter().zip(row.chunks_exact(stokes)) {
-                                add_scaled(total, (mu * weight * azimuth.weight) as f32, &value[0]);
-                            }
+        let source = Relative::new(field);
+        collect(target, shape, azimuths, stage, |ray, radiance| {
+            scattered_radiance(target.grid, (grid, &source), self.air, azimuths, ray, radiance);
+        })
+    }
+}
+
+/// The field of a radiance that `radiance_of(ray, out)` gives for all solar zenith angles, azimuths and Stokes parameters.
+fn collect(
+    target: &Target,
+    shape: Shape,
+    azimuths: &[Azimuth],
+    stage: &Stage,
+    radiance_of: impl Fn(&Ray<LANES>, &mut [Lanes<LANES>]) + Sync,
+) -> Result<Field<LANES>> {
+    let zeniths = target.grid.zeniths.len();
+    let stokes = stokes(shape);
+    let width = azimuths.len() * stokes;
+    let mut field = Field::dark(target.grid, shape);
+    let (done, levels) = (AtomicUsize::new(0), target.grid.altitudes.len());
+    let at_ground = field
+        .values
+        .par_chunks_exact_mut(zeniths * shape.count())
+        .enumerate()
+        .map(|(level, values)| {
+            let mut radiance = vec![splat(0.0); zeniths * width];
+            let mut irradiance = vec![splat(0.0); zeniths];
+            for (&(mu, weight), ray) in target.directions[level].iter().zip(&target.rays[level]) {
+                radiance.fill(splat(0.0));
+                radiance_of(ray, &mut radiance);
+                project(shape, mu, weight, azimuths, &radiance, values);
+                if level == 0 && mu > 0.0 {
+                    for (total, row) in irradiance.iter_mut().zip(radiance.chunks_exact(width)) {
+                        for (azimuth, value) in azimuths.iter().zip(row.chunks_exact(stokes)) {
+                            add_scaled(total, (mu * weight * azimuth.weight) as f32, &value[0]);
                         }
                     }
                 }
-                let share = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / levels as f64;
-                (stage.progress)(stage.from + (stage.to - stage.from) * share)?;
-                Ok(irradiance)
-            })
-            .collect::<Result<Vec<_>>>()?;
-        field.ground.copy_from_slice(&at_ground[0]);
-        Ok(field)
-    }
+            }
+            let share = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / levels as f64;
+            (stage.progress)(stage.from + (stage.to - stage.from) * share)?;
+            Ok(irradiance)
+        })
+        .collect::<Result<Vec<_>>>()?;
+    field.ground.copy_from_slice(&at_ground[0]);
+    Ok(field)
 }
 
 /// Azimuths at which strengths of single scattering are computed, and those at which the radiance is wanted.
@@ -259,15 +278,15 @@ fn sunlit_radiance(
 /// Stokes parameters along `ray` of the light that `source` scatters into it and that the ground at its end reflects, for all solar zenith angles and azimuths.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn scattered_radiance(
-    grid: &Grid,
-    source: &Relative<LANES>,
+    target: &Grid,
+    (grid, source): (&Grid, &Relative<LANES>),
     air: &Air<LANES>,
     azimuths: &[Azimuth],
     ray: &Ray<LANES>,
     radiance: &mut [Lanes<LANES>],
 ) {
     let r0 = air.radius + ray.start_altitude;
-    let on_rays: Vec<SunOnRay> = grid
+    let on_rays: Vec<SunOnRay> = target
         .sun
         .iter()
         .flat_map(|&sun| azimuths.iter().map(move |a| SunOnRay::new(r0, ray.zenith_cosine, (a.cosine, a.sine), sun)))

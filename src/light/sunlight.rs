@@ -2,7 +2,7 @@
 //!
 //! The optical depth to space of rays that rise, tau(z, mu >= 0), is tabulated. A ray that first sinks passes its lowest point z_t
 //! and follows from the same table: tau = 2 tau(z_t, 0) - tau(z, |mu|). Near the horizon, where transmittance changes over the width of the disc
-//! and the ground hides a part of it, the disc (uniform) is integrated in horizontal strips.
+//! and the ground hides a part of it, the mean over the disc (uniform), integrated in horizontal strips, is tabulated.
 
 use super::air::Air;
 use super::axis::Axis;
@@ -10,40 +10,84 @@ use super::gauss;
 use super::lanes::{Lanes, add_scaled, exp, exp_minus, splat};
 use super::ray::{Ray, StepLimits};
 use crate::units::EARTH_RADIUS_KM;
+use rayon::prelude::*;
 
 /// Altitude levels of the table.
 const LEVELS: usize = 112;
 /// Zenith cosines of the table; cosine = (i / (n - 1))^2.
 const COSINES: usize = 80;
+/// Height of the disc's centre over its lowest visible position, in radii of the disc, up to which the mean over the disc is tabulated: above, the transmittance
+/// of the centre is that of the disc within 0.3 %.
+const DISC_REACH: f64 = 17.0;
+/// Entries of that table; height = reach (i / (n - 1))^2.
+const DISC_HEIGHTS: usize = 64;
 
 /// Table of the optical depth towards space for one block of wavelengths.
 pub struct Sunlight<const N: usize> {
     altitudes: Axis,
     /// ln of the optical depth, (altitude, cosine).
     log_depth: Vec<Lanes<N>>,
+    /// ln of the mean transmittance over the disc, divided by the cube of the place in the table with which it vanishes, (altitude, height).
+    log_disc: Vec<Lanes<N>>,
     radius: f64,
     top: f64,
     sun_radius: f64,
-    /// Quadrature over the strips of the disc, on 0..1.
-    strips: Vec<(f64, f64)>,
 }
 
 impl<const N: usize> Sunlight<N> {
     /// Tabulates the optical depths of `air`.
     pub fn new(air: &Air<N>) -> Self {
+        let mut sunlight = Self::without_disc(air);
+        if sunlight.sun_radius > 0.0 {
+            sunlight.tabulate_disc();
+        }
+        sunlight
+    }
+
+    fn without_disc(air: &Air<N>) -> Self {
         let top = air.top;
         let altitudes = Axis::new((0..LEVELS).map(|i| top * (i as f64 / (LEVELS - 1) as f64).powf(2.4)).collect());
         let shells = Axis::new((0..=40).map(|i| top * (f64::from(i) / 40.0).powf(2.2)).collect());
         let limits = StepLimits { length_km: 25.0 * air.radius / EARTH_RADIUS_KM, optical_depth: f32::INFINITY };
-        let mut log_depth = Vec::with_capacity(LEVELS * COSINES);
-        for &z in altitudes.nodes() {
-            for c in 0..COSINES {
-                let mu = (c as f64 / (COSINES - 1) as f64).powi(2);
-                let depth = Ray::optical_depth(air, &shells, z, mu, limits);
-                log_depth.push(depth.map(|d| d.max(1e-12).ln()));
-            }
-        }
-        Self { altitudes, log_depth, radius: air.radius, top, sun_radius: air.sun_radius, strips: gauss::legendre(5) }
+        let log_depth = altitudes
+            .nodes()
+            .par_iter()
+            .flat_map_iter(|&z| {
+                let shells = &shells;
+                (0..COSINES).map(move |c| {
+                    let mu = (c as f64 / (COSINES - 1) as f64).powi(2);
+                    let depth = Ray::optical_depth(air, shells, z, mu, limits);
+                    depth.map(|d| d.max(1e-12).ln())
+                })
+            })
+            .collect();
+        Self { altitudes, log_depth, log_disc: Vec::new(), radius: air.radius, top, sun_radius: air.sun_radius }
+    }
+
+    fn tabulate_disc(&mut self) {
+        let strips = gauss::legendre(8);
+        let table = self
+            .altitudes
+            .nodes()
+            .par_iter()
+            .flat_map_iter(|&z| {
+                let (this, strips) = (&*self, &strips);
+                (0..DISC_HEIGHTS).map(move |i| {
+                    let place = (i as f64 / (DISC_HEIGHTS - 1) as f64).max(1e-3);
+                    let above = this.sun_radius * (DISC_REACH * place * place - 1.0);
+                    let mean = this.over_strips(z, this.horizon(z).acos() - above, above, strips);
+                    mean.map(|m| (m.max(1e-30) / place.powi(3) as f32).ln())
+                })
+            })
+            .collect();
+        self.log_disc = table;
+    }
+
+    /// Cosine of the zenith angle of the horizon seen from altitude `z` [km].
+    #[inline(always)]
+    fn horizon(&self, z: f64) -> f64 {
+        let ratio = self.radius / (self.radius + z);
+        -(1.0 - ratio * ratio).max(0.0).sqrt()
     }
 
     /// Optical depth from altitude `z` [km] to space along a ray that rises with zenith cosine `mu >= 0`.
@@ -97,38 +141,66 @@ impl<const N: usize> Sunlight<N> {
     /// the solar zenith angle `mu`; `None` when the disc is hidden entirely.
     #[inline(always)]
     pub fn over_disc(&self, z: f64, mu: f64) -> Option<Lanes<N>> {
-        let ratio = self.radius / (self.radius + z);
-        let horizon = -(1.0 - ratio * ratio).max(0.0).sqrt();
-        // Cosines differ by nearly the angle near the horizon. Sixteen radii above it the transmittance of the centre is that of the disc within 0.3 %.
-        if mu > horizon + 16.0 * self.sun_radius {
+        let horizon = self.horizon(z);
+        let sun_radius = self.sun_radius;
+        // Cosines differ by less than angles: what is not clearly above the horizon is looked at closely.
+        if sun_radius <= 0.0 || mu > horizon + DISC_REACH * sun_radius {
             return self.transmittance(z, mu);
         }
-        if mu < horizon - 1.5 * self.sun_radius {
+        if mu < horizon - 1.5 * sun_radius {
             return None;
         }
-        self.over_strips(z, mu, horizon)
+        let above = angle_between(horizon, mu) / sun_radius + 1.0;
+        if above <= 0.0 {
+            return None;
+        }
+        if above >= DISC_REACH {
+            return self.transmittance(z, mu);
+        }
+        let place = (above / DISC_REACH).sqrt();
+        let position = place * (DISC_HEIGHTS - 1) as f64;
+        let column = (position as usize).min(DISC_HEIGHTS - 2);
+        let across = (position - column as f64) as f32;
+        let (level, up) = self.altitudes.locate(z);
+        let base = level * DISC_HEIGHTS + column;
+        let rows = [base, base + 1, base + DISC_HEIGHTS, base + DISC_HEIGHTS + 1].map(|i| &self.log_disc[i]);
+        let weights = [(1.0 - up) * (1.0 - across), (1.0 - up) * across, up * (1.0 - across), up * across];
+        let cube = (place * place * place) as f32;
+        let mut mean = splat(0.0);
+        for (row, weight) in rows.into_iter().zip(weights) {
+            add_scaled(&mut mean, weight, row);
+        }
+        let mut mean = exp(&mean);
+        for m in &mut mean {
+            *m *= cube;
+        }
+        Some(mean)
     }
 
-    #[cold]
-    fn over_strips(&self, z: f64, mu: f64, horizon: f64) -> Option<Lanes<N>> {
-        let above = horizon.acos() - mu.acos();
-        if above <= -self.sun_radius {
-            return None;
-        }
+    /// The mean over the disc whose centre stands at `zenith` [radians], `above` the horizon [radians].
+    fn over_strips(&self, z: f64, zenith: f64, above: f64, strips: &[(f64, f64)]) -> Lanes<N> {
         // Height over the centre = radius sin t; a strip's share of the disc is cos^2 t dt / (pi / 2).
         let lowest = if above < self.sun_radius { (-above / self.sun_radius).asin() } else { -std::f64::consts::FRAC_PI_2 };
         let height = std::f64::consts::FRAC_PI_2 - lowest;
-        let sine = (1.0 - mu * mu).max(0.0).sqrt();
+        let (sine, mu) = zenith.sin_cos();
         let mut mean = splat(0.0);
-        for &(node, weight) in &self.strips {
+        for &(node, weight) in strips {
             let t = lowest + height * node;
             let (y, share) = (self.sun_radius * t.sin(), weight * height * t.cos().powi(2) / std::f64::consts::FRAC_PI_2);
             if let Some(transmittance) = self.transmittance(z, mu * y.cos() + sine * y.sin()) {
                 add_scaled(&mut mean, share as f32, &transmittance);
             }
         }
-        Some(mean)
+        mean
     }
+}
+
+/// Angle from the direction with zenith cosine `horizon` up to that with zenith cosine `mu` [radians], for angles of at most some degrees: the series of the
+/// arc sine of the sine of the difference.
+#[inline(always)]
+fn angle_between(horizon: f64, mu: f64) -> f64 {
+    let sine = mu * (1.0 - horizon * horizon).max(0.0).sqrt() - horizon * (1.0 - mu * mu).max(0.0).sqrt();
+    sine * (1.0 + sine * sine / 6.0)
 }
 
 #[cfg(test)]
