@@ -23,7 +23,7 @@ SUN_ALTITUDES_DEG = [60.0, 30.0, 10.0]
 LUMINOUS_EFFICACY = 110.0
 TOLERANCE = 0.10
 
-# Of skyprobe's continental clean aerosol, relative to 550 nm (data/aerosol_types.csv), and its albedo.
+# Of skyprobe's continental clean aerosol, relative to 550 nm (data/aerosol_particles.bin), and its albedo.
 AOD550 = 0.1
 RELATIVE_EXTINCTION = {380.0: 1.545, 500.0: 1.1306}
 ANGSTROM_EXPONENT = 1.28

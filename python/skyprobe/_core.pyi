@@ -9,7 +9,9 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 _Quality: TypeAlias = Literal["draft", "standard", "high", "reference"]
-_Preset: TypeAlias = Literal["clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "thesis"]
+_Preset: TypeAlias = Literal[
+    "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "fog", "volcanic", "thesis"
+]
 _Aerosol: TypeAlias = Literal[
     "none",
     "continental_clean",
@@ -17,10 +19,15 @@ _Aerosol: TypeAlias = Literal[
     "continental_polluted",
     "urban",
     "maritime_clean",
+    "maritime_polluted",
+    "maritime_tropical",
     "desert",
+    "arctic",
     "antarctic",
+    "fog",
     "thesis",
 ]
+_PhaseFunction: TypeAlias = Literal["mie", "henyey_greenstein", "cornette_shanks"]
 _Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
@@ -76,6 +83,19 @@ class Phase:
     def cornette_shanks(asymmetry: float) -> Phase:
         """The function of Cornette and Shanks (1992) with the parameter g from -0.99 to 0.99."""
 
+    @staticmethod
+    def tabulated(angles_deg: ArrayLike, values: ArrayLike) -> Phase:
+        """A function given by numbers. Between the angles its logarithm is linear; it is scaled so that its integral over the sphere is
+        4 pi, and refused if it is further than 5 % from that.
+
+        Parameters
+        ----------
+        angles_deg
+            Scattering angles, ascending from 0 to 180, shape (A,): close together where the function bends. [degrees]
+        values
+            Shape (A,), or (W, A) with a row for each wavelength of the profile; not negative.
+        """
+
 @final
 class Component:
     """One kind of particle or gas of an explicit profile.
@@ -103,16 +123,19 @@ class Atmosphere:
     Parameters
     ----------
     preset
-        Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic" or "thesis".
+        Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "fog", "volcanic" or
+        "thesis".
     aerosol
         Kind of haze: "none", "continental_clean", "continental_average", "continental_polluted", "urban", "maritime_clean",
-        "desert", "antarctic" or "thesis".
+        "maritime_polluted", "maritime_tropical", "desert", "arctic", "antarctic", "fog" or "thesis".
+    relative_humidity
+        With which the particles grow, 0 to 99; 80 by default. [%]
     aod550
-        Vertical optical depth of the haze at 550 nm, 0 to 10.
+        Vertical optical depth of the haze at 550 nm, 0 to 50.
     turbidity
         Optical depth of haze and molecules over that of the molecules at 550 nm, 1 (pure air) to 64.
     visibility_km
-        Horizontal visibility at the ground, from 1. [km]
+        Horizontal visibility at the ground, from 0.05. [km]
     ozone_du
         Ozone column, 0 to 1000. [Dobson units]
     ground
@@ -122,9 +145,16 @@ class Atmosphere:
     single_scattering_albedo
         Replaces the haze's single scattering albedo, 0 to 1.
     asymmetry
-        Replaces the haze's asymmetry parameter, -0.99 to 0.99.
+        Replaces the haze's asymmetry parameter, -0.99 to 0.99, and so its phase function.
+    phase_function
+        How the haze scatters: "mie", "henyey_greenstein" or "cornette_shanks"; "mie" by default, "henyey_greenstein" if ``asymmetry`` is
+        given.
     aerosol_scale_height_km
-        Replaces the haze's scale height, 0.1 to 20. [km]
+        Replaces the haze's scale height, or the depth of a layer of fog, 0.1 to 20. [km]
+    stratospheric_aod550
+        Vertical optical depth at 550 nm of volcanic sulphuric acid in the stratosphere, 0 to 1; it comes on top of ``aod550``.
+    stratospheric_altitude_km
+        Altitude of its middle, 12 to 40; 20 by default. [km]
     standard_atmosphere
         Profile of temperature and density, such as "us_standard_1976" or "tropical".
     surface_pressure_hpa
@@ -140,6 +170,7 @@ class Atmosphere:
         *,
         preset: _Preset = "clear",
         aerosol: _Aerosol | None = None,
+        relative_humidity: float | None = None,
         aod550: float | None = None,
         turbidity: float | None = None,
         visibility_km: float | None = None,
@@ -148,7 +179,10 @@ class Atmosphere:
         angstrom_exponent: float | None = None,
         single_scattering_albedo: float | None = None,
         asymmetry: float | None = None,
+        phase_function: _PhaseFunction | None = None,
         aerosol_scale_height_km: float | None = None,
+        stratospheric_aod550: float | None = None,
+        stratospheric_altitude_km: float | None = None,
         standard_atmosphere: str | None = None,
         surface_pressure_hpa: float | None = None,
         quality: _Quality = "standard",

@@ -4,21 +4,28 @@
 //! is into an optical depth; [`AirParameters::optical_profile`] is all that the light transport knows.
 
 pub mod aerosol;
+mod complex;
 pub mod ground;
+pub mod mie;
 pub mod molecules;
 mod names;
 pub mod optical_profile;
 pub mod ozone;
 pub mod parameters;
+pub mod particle_tables;
+pub mod particles;
 pub mod phase;
+pub mod phase_table;
 pub mod preset;
 pub mod profile;
+pub mod size_distribution;
 pub mod standard_atmosphere;
 
 pub use aerosol::AerosolType;
 pub use ground::{Ground, Surface};
 pub use optical_profile::{Component, OpticalProfile};
-pub use parameters::{Air, AirParameters};
+pub use parameters::{Air, AirParameters, PhaseFunction};
 pub use phase::Phase;
+pub use phase_table::PhaseTable;
 pub use preset::Preset;
 pub use standard_atmosphere::StandardAtmosphere;

@@ -6,10 +6,13 @@
 //! - `turbidity` T = (tau_aerosol + tau_molecules) / tau_molecules (thesis, section 5.1; 1 is pure air, 64 light fog);
 //! - `visibility_km` V = 3.912 / (beta_aerosol + beta_molecules) with the extinction beta [km-1] at the ground
 //!   (Koschmieder 1924, contrast threshold 2 %).
+//!
+//! All three mean the aerosol near the ground; that of the stratosphere is said by itself and comes on top.
 
 use super::aerosol::AerosolType;
 use super::ground::Ground;
 use super::molecules;
+use super::names::words;
 use super::optical_profile::OpticalProfile;
 use super::preset::{Amount, Preset};
 use super::profile;
@@ -21,7 +24,28 @@ use serde::{Deserialize, Serialize};
 const KOSCHMIEDER: f64 = 3.912;
 
 /// Shortest visibility that is accepted [km].
-const SHORTEST_VISIBILITY_KM: f64 = 1.0;
+const SHORTEST_VISIBILITY_KM: f64 = 0.05;
+
+/// Largest vertical optical depth of the aerosol that is accepted.
+const LARGEST_AOD550: f64 = 50.0;
+
+/// How the aerosol scatters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum PhaseFunction {
+    /// The phase function of its particles by Mie theory, by wavelength.
+    Mie,
+    /// That of Henyey and Greenstein with the asymmetry of the aerosol at 550 nm, or the one given.
+    HenyeyGreenstein,
+    /// That of Cornette and Shanks with this asymmetry.
+    CornetteShanks,
+}
+
+words!(PhaseFunction, "phase_function", {
+    Mie => "mie",
+    HenyeyGreenstein => "henyey_greenstein",
+    CornetteShanks => "cornette_shanks",
+});
 
 /// The state of the air as the user gives it. Everything but the preset may be left out: the preset fills it in.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -32,13 +56,16 @@ pub struct AirParameters {
     /// Kind of aerosol.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aerosol: Option<AerosolType>,
-    /// Vertical optical depth of the aerosol at 550 nm (0 to 10). At most one of this, `turbidity` and `visibility_km`.
+    /// Relative humidity [%] (0 to 99, default 80), with which the particles grow. Amounts are those of the grown particles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative_humidity: Option<f64>,
+    /// Vertical optical depth of the aerosol at 550 nm (0 to 50). At most one of this, `turbidity` and `visibility_km`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aod550: Option<f64>,
     /// Optical depth of aerosol and molecules over that of the molecules at 550 nm (1 to 64).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turbidity: Option<f64>,
-    /// Horizontal visibility at the ground [km], from 1 to that of pure air (about 340).
+    /// Horizontal visibility at the ground [km], from 0.05 to that of pure air (about 340); the optical depth must not exceed 50.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub visibility_km: Option<f64>,
     /// Replaces the aerosol's spectral extinction by (wavelength / 550 nm)^-exponent (-1 to 4).
@@ -47,12 +74,21 @@ pub struct AirParameters {
     /// Replaces the aerosol's single scattering albedo at all wavelengths (0 to 1).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub single_scattering_albedo: Option<f64>,
-    /// Replaces the aerosol's asymmetry parameter (-0.99 to 0.99).
+    /// Replaces the aerosol's asymmetry parameter (-0.99 to 0.99), and so its phase function.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub asymmetry: Option<f64>,
-    /// Replaces the aerosol's scale height [km] (0.1 to 20).
+    /// How the aerosol scatters; by default `mie`, or `henyey_greenstein` if `asymmetry` is given or the type is not made of particles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub phase_function: Option<PhaseFunction>,
+    /// Replaces the aerosol's scale height, or the depth of a layer of fog [km] (0.1 to 20).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub aerosol_scale_height_km: Option<f64>,
+    /// Vertical optical depth at 550 nm of droplets of sulphuric acid in the stratosphere, as after a great eruption (0 to 1).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stratospheric_aod550: Option<f64>,
+    /// Altitude of the middle of the stratospheric aerosol [km] (12 to 40, default 20).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stratospheric_altitude_km: Option<f64>,
     /// Ozone column [Dobson units] (0 to 1000).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ozone_du: Option<f64>,
@@ -72,6 +108,8 @@ pub struct AirParameters {
 pub struct Air {
     /// Kind of aerosol.
     pub aerosol: AerosolType,
+    /// Relative humidity [%].
+    pub relative_humidity: f64,
     /// Vertical optical depth of the aerosol at 550 nm.
     pub aod550: f64,
     /// The same as turbidity.
@@ -84,8 +122,14 @@ pub struct Air {
     pub single_scattering_albedo: Option<f64>,
     /// Asymmetry parameter, by default that of the aerosol at 550 nm.
     pub asymmetry: f64,
-    /// Scale height of the aerosol [km].
+    /// How the aerosol scatters.
+    pub phase_function: PhaseFunction,
+    /// Scale height of the aerosol, depth of a layer of fog [km].
     pub aerosol_scale_height_km: f64,
+    /// Vertical optical depth of the stratospheric aerosol at 550 nm.
+    pub stratospheric_aod550: f64,
+    /// Altitude of its middle [km].
+    pub stratospheric_altitude_km: f64,
     /// Ozone column [Dobson units].
     pub ozone_du: f64,
     /// Temperature and density profile.
@@ -111,12 +155,15 @@ impl AirParameters {
     /// [`Error::Input`] that names the first parameter that cannot be used.
     pub fn resolve(&self) -> Result<Air> {
         for (name, value, low, high, unit) in [
-            ("aod550", self.aod550, 0.0, 10.0, ""),
+            ("relative_humidity", self.relative_humidity, 0.0, 99.0, "%"),
+            ("aod550", self.aod550, 0.0, LARGEST_AOD550, ""),
             ("turbidity", self.turbidity, 1.0, 64.0, ""),
             ("angstrom_exponent", self.angstrom_exponent, -1.0, 4.0, ""),
             ("single_scattering_albedo", self.single_scattering_albedo, 0.0, 1.0, ""),
             ("asymmetry", self.asymmetry, -0.99, 0.99, ""),
             ("aerosol_scale_height_km", self.aerosol_scale_height_km, 0.1, 20.0, "km"),
+            ("stratospheric_aod550", self.stratospheric_aod550, 0.0, 1.0, ""),
+            ("stratospheric_altitude_km", self.stratospheric_altitude_km, 12.0, 40.0, "km"),
             ("ozone_du", self.ozone_du, 0.0, 1000.0, "Dobson units"),
             ("surface_pressure_hpa", self.surface_pressure_hpa, 100.0, 1100.0, "hPa"),
         ] {
@@ -148,18 +195,29 @@ impl AirParameters {
                     let allowed = format!("one of {} when an amount of aerosol is given", kinds.join(", "));
                     return Err(Error::input("aerosol", "\"none\"", allowed));
                 }
+                if let (Some(visibility), true) = (self.visibility_km, depth > LARGEST_AOD550) {
+                    let shortest = KOSCHMIEDER / (molecules_per_km + LARGEST_AOD550 / scale_height);
+                    let allowed = format!("{shortest:.3} km or more in haze with a scale height of {scale_height} km");
+                    return Err(Error::input("visibility_km", visibility, allowed));
+                }
                 depth
             }
         };
+        let phase_function = self.resolved_phase_function(aerosol)?;
+        let relative_humidity = self.relative_humidity.unwrap_or(80.0);
         Ok(Air {
             aerosol,
+            relative_humidity,
             aod550,
             turbidity: 1.0 + aod550 / molecules_depth,
             visibility_km: KOSCHMIEDER / (molecules_per_km + aod550 / scale_height),
             angstrom_exponent: self.angstrom_exponent,
             single_scattering_albedo: self.single_scattering_albedo,
-            asymmetry: self.asymmetry.unwrap_or(aerosol.optics(550.0).asymmetry),
+            asymmetry: self.asymmetry.unwrap_or_else(|| aerosol.spectrum(relative_humidity).at(550.0).asymmetry),
+            phase_function,
             aerosol_scale_height_km: scale_height,
+            stratospheric_aod550: self.stratospheric_aod550.unwrap_or(defaults.stratospheric_aod550),
+            stratospheric_altitude_km: self.stratospheric_altitude_km.unwrap_or(20.0),
             ozone_du: self.ozone_du.unwrap_or(defaults.ozone_du),
             standard_atmosphere,
             surface_pressure_hpa,
@@ -173,6 +231,22 @@ impl AirParameters {
     /// [`Error::Input`] that names the first parameter that cannot be used.
     pub fn optical_profile(&self, wavelengths_nm: &[f64]) -> Result<OpticalProfile> {
         profile::optical_profile(&self.resolve()?, wavelengths_nm)
+    }
+
+    fn resolved_phase_function(&self, aerosol: AerosolType) -> Result<PhaseFunction> {
+        let has_mie = self.asymmetry.is_none() && aerosol.is_made_of_particles();
+        match self.phase_function {
+            Some(PhaseFunction::Mie) if !has_mie => {
+                let why = if self.asymmetry.is_some() {
+                    "when asymmetry is given".to_string()
+                } else {
+                    format!("for the aerosol {:?}, which is not made of particles", aerosol.name())
+                };
+                Err(Error::input("phase_function", "\"mie\"", format!("henyey_greenstein or cornette_shanks {why}")))
+            }
+            Some(given) => Ok(given),
+            None => Ok(if has_mie { PhaseFunction::Mie } else { PhaseFunction::HenyeyGreenstein }),
+        }
     }
 
     /// The amount of aerosol that is given, if one is. `molecules_per_km` is the molecules' extinction at the ground.
@@ -235,11 +309,42 @@ mod tests {
     }
 
     #[test]
+    fn the_phase_function_follows_from_what_is_given() {
+        for (json, expected) in [
+            ("{}", PhaseFunction::Mie),
+            (r#"{"asymmetry": 0.7}"#, PhaseFunction::HenyeyGreenstein),
+            (r#"{"asymmetry": 0.7, "phase_function": "cornette_shanks"}"#, PhaseFunction::CornetteShanks),
+            (r#"{"phase_function": "henyey_greenstein"}"#, PhaseFunction::HenyeyGreenstein),
+            (r#"{"preset": "thesis"}"#, PhaseFunction::HenyeyGreenstein),
+            (r#"{"preset": "pure"}"#, PhaseFunction::HenyeyGreenstein),
+        ] {
+            assert_eq!(resolve(json).unwrap().phase_function, expected, "{json}");
+        }
+        assert!(resolve(r#"{"relative_humidity": 98}"#).unwrap().asymmetry > resolve("{}").unwrap().asymmetry + 0.02);
+    }
+
+    #[test]
+    fn fog_is_thick_and_the_volcanic_stratosphere_comes_on_top() {
+        let fog = resolve(r#"{"preset": "fog", "visibility_km": 0.1}"#).unwrap();
+        assert!((fog.aod550 - 39.12 * 0.3).abs() < 0.02, "{}", fog.aod550);
+        let volcanic = resolve(r#"{"preset": "volcanic"}"#).unwrap();
+        let clear = resolve("{}").unwrap();
+        assert_eq!((volcanic.aod550, volcanic.turbidity), (clear.aod550, clear.turbidity));
+        assert_eq!((volcanic.stratospheric_aod550, clear.stratospheric_aod550), (0.1, 0.0));
+    }
+
+    #[test]
     fn wrong_values_name_the_parameter() {
         for (json, start) in [
             (r#"{"turbidity": -1}"#, "turbidity = -1: must be"),
-            (r#"{"aod550": 11}"#, "aod550 = 11: must be"),
-            (r#"{"visibility_km": 400}"#, "visibility_km = 400: must be a number from 1 to 340"),
+            (r#"{"aod550": 51}"#, "aod550 = 51: must be"),
+            (r#"{"relative_humidity": 100}"#, "relative_humidity = 100: must be a number from 0 to 99 %"),
+            (r#"{"visibility_km": 0.1}"#, "visibility_km = 0.1: must be 0.156 km or more in haze with a scale height of 2 km"),
+            (r#"{"stratospheric_aod550": 2}"#, "stratospheric_aod550 = 2: must be"),
+            (r#"{"stratospheric_altitude_km": 5}"#, "stratospheric_altitude_km = 5: must be"),
+            (r#"{"phase_function": "mie", "asymmetry": 0.7}"#, "phase_function = \"mie\": must be henyey_greenstein or"),
+            (r#"{"phase_function": "mie", "preset": "thesis"}"#, "phase_function = \"mie\": must be henyey_greenstein or"),
+            (r#"{"visibility_km": 400}"#, "visibility_km = 400: must be a number from 0.05 to 340"),
             (r#"{"visibility_km": 0}"#, "visibility_km = 0: must be"),
             (r#"{"aod550": 0.1, "turbidity": 3}"#, "turbidity = 3: must be left out when aod550 is given"),
             (r#"{"ozone_du": 2000}"#, "ozone_du = 2000: must be"),

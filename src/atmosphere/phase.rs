@@ -1,6 +1,8 @@
 //! Phase functions: where a scatterer sends the light. Normalised so that the integral over the sphere is 4 pi.
 
+use super::phase_table::PhaseTable;
 use crate::error::{Error, Result, check_range};
+use std::sync::Arc;
 
 /// A phase function, with its parameters by wavelength where they depend on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,8 @@ pub enum Phase {
         /// Parameter g (-1 < g < 1); the asymmetry of the function is slightly larger.
         asymmetry: f64,
     },
+    /// Values by angle and wavelength: Mie theory's or any other.
+    Tabulated(Arc<PhaseTable>),
 }
 
 impl Phase {
@@ -41,6 +45,15 @@ impl Phase {
             Self::HenyeyGreenstein { asymmetry } | Self::CornetteShanks { asymmetry } => {
                 check_range("asymmetry", *asymmetry, -0.99, 0.99, "")?;
             }
+            Self::Tabulated(table) => {
+                if table.wavelengths() != 1 && table.wavelengths() != wavelengths {
+                    return Err(Error::input(
+                        format!("{component}.phase"),
+                        format!("a table of {} wavelengths", table.wavelengths()),
+                        format!("a table of 1 wavelength or {wavelengths}, those of the profile"),
+                    ));
+                }
+            }
         }
         Ok(())
     }
@@ -49,7 +62,8 @@ impl Phase {
     pub fn basis_len(&self) -> usize {
         match self {
             Self::Rayleigh { .. } => 2,
-            _ => 1,
+            Self::HenyeyGreenstein { .. } | Self::CornetteShanks { .. } => 1,
+            Self::Tabulated(table) => table.wavelengths(),
         }
     }
 
@@ -69,6 +83,7 @@ impl Phase {
             Self::CornetteShanks { asymmetry: g } => {
                 1.5 / (2.0 + g * g) * (1.0 + cosine * cosine) * henyey_greenstein(*g, cosine)
             }
+            Self::Tabulated(table) => table.value(index, cosine),
         }
     }
 
@@ -81,13 +96,17 @@ impl Phase {
                 let norm = 0.75 / (1.0 + 2.0 * gamma);
                 norm * if index == 0 { 1.0 + 3.0 * gamma } else { 1.0 - gamma }
             }
-            _ => 1.0,
+            Self::HenyeyGreenstein { .. } | Self::CornetteShanks { .. } => 1.0,
+            Self::Tabulated(table) => f64::from(table.wavelengths() == 1 || index == wavelength),
         }
     }
 
     /// The phase function at wavelength index `wavelength` and scattering angle cosine `cosine`.
     pub fn value(&self, wavelength: usize, cosine: f64) -> f64 {
-        (0..self.basis_len()).map(|i| self.basis_weight(i, wavelength) * self.basis(i, cosine)).sum()
+        match self {
+            Self::Tabulated(table) => table.value(wavelength, cosine),
+            _ => (0..self.basis_len()).map(|i| self.basis_weight(i, wavelength) * self.basis(i, cosine)).sum(),
+        }
     }
 
     /// Legendre moment of order `l`: 1/2 of the integral of P P_l over the cosine; the moment of order 0 is 1.
@@ -111,7 +130,28 @@ impl Phase {
                 let below = if l > 1 { down * moment(l as i32 - 2) } else { 0.0 };
                 1.5 / (2.0 + g * g) * ((1.0 + same) * moment(l as i32) + up * moment(l as i32 + 2) + below)
             }
+            Self::Tabulated(table) => table.legendre_moment(l, wavelength),
         }
+    }
+
+    /// The first `count` Legendre moments, orders 0 to `count` - 1; see [`Phase::legendre_moment`].
+    pub fn legendre_moments(&self, count: usize, wavelength: usize) -> Vec<f64> {
+        match self {
+            Self::Tabulated(table) => table.legendre_moments(count, wavelength),
+            _ => (0..count).map(|l| self.legendre_moment(l, wavelength)).collect(),
+        }
+    }
+
+    /// The function of Cornette and Shanks whose asymmetry is `asymmetry` (-0.99 to 0.99), not its parameter g: solves
+    /// asymmetry = 3 g (4 + g^2) / (5 (2 + g^2)) (their eq. 9).
+    pub fn cornette_shanks_of_asymmetry(asymmetry: f64) -> Self {
+        let mut g = asymmetry;
+        for _ in 0..20 {
+            let value = 0.6 * g * (4.0 + g * g) / (2.0 + g * g);
+            let slope = 0.6 * (8.0 - 2.0 * g * g + g.powi(4) + 4.0 * g * g) / (2.0 + g * g).powi(2);
+            g -= (value - asymmetry) / slope;
+        }
+        Self::CornetteShanks { asymmetry: g.clamp(-0.99, 0.99) }
     }
 }
 
@@ -155,6 +195,27 @@ mod tests {
                 let expected = moment_by_quadrature(phase, l);
                 assert!((phase.legendre_moment(l, 0) - expected).abs() < 1e-6, "{phase:?}, order {l}");
             }
+        }
+    }
+
+    #[test]
+    fn all_moments_at_once_are_the_single_ones() {
+        let angles: Vec<f64> = (0..=900).map(|i| f64::from(i) / 900.0 * std::f64::consts::PI).collect();
+        let values: Vec<f64> = angles.iter().map(|a| henyey_greenstein(0.5, a.cos())).collect();
+        let tabulated = Phase::Tabulated(Arc::new(PhaseTable::new(&angles, &values).unwrap()));
+        for phase in [tabulated, Phase::Rayleigh { depolarisation: vec![0.03] }, Phase::CornetteShanks { asymmetry: 0.76 }] {
+            for (l, moment) in phase.legendre_moments(6, 0).into_iter().enumerate() {
+                assert!((moment - phase.legendre_moment(l, 0)).abs() < 1e-6, "{phase:?}, order {l}");
+                assert!((moment - moment_by_quadrature(&phase, l)).abs() < 1e-5, "{phase:?}, order {l}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_function_of_cornette_and_shanks_is_found_by_its_asymmetry() {
+        for asymmetry in [-0.9, -0.3, 0.0, 0.5, 0.8, 0.98] {
+            let phase = Phase::cornette_shanks_of_asymmetry(asymmetry);
+            assert!((phase.legendre_moment(1, 0) - asymmetry).abs() < 1e-9, "{asymmetry}: {phase:?}");
         }
     }
 

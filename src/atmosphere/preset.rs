@@ -27,6 +27,10 @@ pub enum Preset {
     Desert,
     /// The Antarctic: optical depth 0.03, subarctic winter air, snow.
     Antarctic,
+    /// Fog: optical depth 5 in a layer of 300 m (visibility 230 m) over grass.
+    Fog,
+    /// A clear day some months after a great volcanic eruption: as `clear`, with an optical depth of 0.1 in the stratosphere.
+    Volcanic,
     /// The air of the original thesis: haze proportional to wavelength^-0.84 at turbidity 2, no ozone.
     Thesis,
 }
@@ -40,6 +44,8 @@ words!(Preset, "preset", {
     Maritime => "maritime",
     Desert => "desert",
     Antarctic => "antarctic",
+    Fog => "fog",
+    Volcanic => "volcanic",
     Thesis => "thesis",
 });
 
@@ -61,6 +67,8 @@ pub struct Defaults {
     pub aerosol: AerosolType,
     /// Amount of aerosol.
     pub amount: Amount,
+    /// Vertical optical depth of the stratospheric aerosol at 550 nm.
+    pub stratospheric_aod550: f64,
     /// Ozone column [Dobson units].
     pub ozone_du: f64,
     /// Temperature and density.
@@ -75,6 +83,7 @@ impl Preset {
         let row = |aerosol, optical_depth, ground| Defaults {
             aerosol,
             amount: Amount::OpticalDepth(optical_depth),
+            stratospheric_aod550: 0.0,
             ozone_du: 300.0,
             standard_atmosphere: StandardAtmosphere::UsStandard1976,
             ground,
@@ -91,6 +100,8 @@ impl Preset {
                 standard_atmosphere: StandardAtmosphere::SubarcticWinter,
                 ..row(AerosolType::Antarctic, 0.03, Surface::Snow)
             },
+            Self::Fog => row(AerosolType::Fog, 5.0, Surface::Grass),
+            Self::Volcanic => Defaults { stratospheric_aod550: 0.1, ..row(AerosolType::ContinentalClean, 0.1, Surface::Grass) },
             Self::Thesis => {
                 Defaults { amount: Amount::Turbidity(2.0), ozone_du: 0.0, ..row(AerosolType::Thesis, 0.0, Surface::Grass) }
             }

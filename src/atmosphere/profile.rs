@@ -1,25 +1,33 @@
 //! From the state of the air to its optical profile.
 //!
-//! Components, in this order: molecules, ozone, aerosol (always all three, so that an index means the same thing everywhere).
+//! Components, in this order: molecules, ozone, aerosol (always all three, so that an index means the same thing everywhere), then
+//! the stratospheric aerosol if there is any.
 //! Each coefficient is sampled on the altitude grid and scaled so that the profile's own integral, which is linear between altitudes,
 //! is exactly the column that was asked for.
 
-use super::aerosol::{AerosolOptics, angstrom};
+use super::aerosol::{AerosolOptics, AerosolSpectrum, angstrom};
 use super::molecules;
 use super::optical_profile::{Component, OpticalProfile};
 use super::ozone;
-use super::parameters::Air;
+use super::parameters::{Air, PhaseFunction};
+use super::particle_tables::Mixture;
+use super::particles::Particle;
 use super::phase::Phase;
 use super::standard_atmosphere::StandardAtmosphere;
 use crate::error::{Result, check_range};
 use crate::spectrum::solar;
 use crate::units::EARTH_RADIUS_KM;
+use std::sync::Arc;
 
 /// Top of the profile [km]. The air above holds 3e-8 of the molecules.
 pub const TOP_KM: f64 = 120.0;
 
 /// Angular radius of the Sun's disc at 1 au [degrees].
 pub const SUN_ANGULAR_RADIUS_DEG: f64 = 0.2664;
+
+/// Standard deviation of the Gaussian profile of the stratospheric aerosol [km]: some months after a great eruption most of it is
+/// found in the ten kilometres above the tropopause (chosen).
+pub const STRATOSPHERIC_WIDTH_KM: f64 = 3.0;
 
 /// Wavelengths for which there are data [nm].
 pub const WAVELENGTH_RANGE_NM: (f64, f64) = (300.0, 1000.0);
@@ -52,11 +60,14 @@ pub(super) fn optical_profile(air: &Air, wavelengths_nm: &[f64]) -> Result<Optic
         check_range("wavelengths_nm", wavelength, WAVELENGTH_RANGE_NM.0, WAVELENGTH_RANGE_NM.1, "nm")?;
     }
     let altitudes_km = altitudes_km();
-    let components = vec![
+    let mut components = vec![
         molecules_component(air, &altitudes_km, wavelengths_nm),
         ozone_component(air, &altitudes_km, wavelengths_nm),
         aerosol_component(air, &altitudes_km, wavelengths_nm),
     ];
+    if air.stratospheric_aod550 > 0.0 {
+        components.push(stratospheric_component(air, &altitudes_km, wavelengths_nm));
+    }
     let profile = OpticalProfile {
         components,
         ground_albedo: air.ground.albedo(wavelengths_nm),
@@ -96,23 +107,53 @@ fn ozone_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) -> C
 }
 
 fn aerosol_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) -> Component {
-    let shape = unit_column(altitudes_km, |z| (-z / air.aerosol_scale_height_km).exp());
-    let (scattering, absorption): (Vec<f64>, Vec<f64>) = wavelengths_nm
-        .iter()
-        .map(|&wavelength| {
-            let AerosolOptics { relative_extinction, single_scattering_albedo, .. } = air.aerosol.optics(wavelength);
-            let relative = air.angstrom_exponent.map_or(relative_extinction, |exponent| angstrom(wavelength, exponent));
-            let albedo = air.single_scattering_albedo.unwrap_or(single_scattering_albedo);
-            let extinction = air.aod550 * relative;
-            (extinction * albedo, extinction * (1.0 - albedo))
-        })
-        .unzip();
+    let shape = unit_column(altitudes_km, |z| air.aerosol.relative_density(z, air.aerosol_scale_height_km));
+    let spectrum = air.aerosol.spectrum(air.relative_humidity);
+    let (scattering, absorption) = depths(wavelengths_nm, |wavelength| {
+        let AerosolOptics { relative_extinction, single_scattering_albedo, .. } = spectrum.at(wavelength);
+        let relative = air.angstrom_exponent.map_or(relative_extinction, |exponent| angstrom(wavelength, exponent));
+        (air.aod550 * relative, air.single_scattering_albedo.unwrap_or(single_scattering_albedo))
+    });
+    let phase = match air.phase_function {
+        PhaseFunction::Mie => {
+            let mixture = Mixture::new(air.aerosol.particles(), air.relative_humidity);
+            Phase::Tabulated(Arc::new(mixture.phase_table(wavelengths_nm)))
+        }
+        PhaseFunction::HenyeyGreenstein => Phase::HenyeyGreenstein { asymmetry: air.asymmetry },
+        PhaseFunction::CornetteShanks => Phase::cornette_shanks_of_asymmetry(air.asymmetry),
+    };
     Component {
         name: "aerosol".into(),
         scattering_per_km: outer_product(&shape, &scattering),
         absorption_per_km: outer_product(&shape, &absorption),
-        phase: Some(Phase::HenyeyGreenstein { asymmetry: air.asymmetry }),
+        phase: Some(phase),
     }
+}
+
+fn stratospheric_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) -> Component {
+    let shape =
+        unit_column(altitudes_km, |z| (-0.5 * ((z - air.stratospheric_altitude_km) / STRATOSPHERIC_WIDTH_KM).powi(2)).exp());
+    let droplets = Mixture::new(&[(Particle::VolcanicSulphate, 1.0)], 0.0);
+    let spectrum = AerosolSpectrum::new(&droplets);
+    let (scattering, absorption) = depths(wavelengths_nm, |wavelength| {
+        let optics = spectrum.at(wavelength);
+        (air.stratospheric_aod550 * optics.relative_extinction, optics.single_scattering_albedo)
+    });
+    Component {
+        name: "stratospheric_aerosol".into(),
+        scattering_per_km: outer_product(&shape, &scattering),
+        absorption_per_km: outer_product(&shape, &absorption),
+        phase: Some(Phase::Tabulated(Arc::new(droplets.phase_table(wavelengths_nm)))),
+    }
+}
+
+/// Optical depths of scattering and absorption from `optics`: optical depth of extinction and single scattering albedo by wavelength.
+fn depths(wavelengths_nm: &[f64], optics: impl Fn(f64) -> (f64, f64)) -> (Vec<f64>, Vec<f64>) {
+    let split = |&wavelength: &f64| {
+        let (extinction, albedo) = optics(wavelength);
+        (extinction * albedo, extinction * (1.0 - albedo))
+    };
+    wavelengths_nm.iter().map(split).unzip()
 }
 
 /// `density` at the altitudes, scaled so that its integral, linear between altitudes, is 1 [km-1].
@@ -178,6 +219,39 @@ mod tests {
         let at_4_km = profile.altitudes_km.iter().position(|&z| (z - 4.0).abs() < 1e-9).unwrap();
         let ratio = aerosol.scattering_per_km[at_4_km * 2] / aerosol.scattering_per_km[0];
         assert!((ratio - (-1.0_f64).exp()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_aerosol_scatters_as_its_particles_do() {
+        let wavelengths = wavelengths(32);
+        let profile = AirParameters::default().optical_profile(&wavelengths).unwrap();
+        let aerosol = &profile.components[2];
+        let Some(Phase::Tabulated(table)) = &aerosol.phase else { panic!("Mie theory") };
+        assert_eq!(table.wavelengths(), 32);
+        let spectrum = crate::atmosphere::AerosolType::ContinentalClean.spectrum(80.0);
+        for (k, &wavelength) in wavelengths.iter().enumerate() {
+            assert!((table.legendre_moment(1, k) - spectrum.at(wavelength).asymmetry).abs() < 1e-3);
+        }
+        let henyey = AirParameters { asymmetry: Some(0.7), ..AirParameters::default() }.optical_profile(&wavelengths).unwrap();
+        assert_eq!(henyey.components[2].scattering_per_km, aerosol.scattering_per_km);
+    }
+
+    #[test]
+    fn the_stratospheric_aerosol_lies_where_it_was_put() {
+        let parameters: AirParameters =
+            serde_json::from_str(r#"{"preset": "volcanic", "stratospheric_aod550": 0.2, "stratospheric_altitude_km": 24}"#)
+                .unwrap();
+        let profile = parameters.optical_profile(&[450.0, 550.0, 700.0]).unwrap();
+        let layer = &profile.components[3];
+        assert_eq!(layer.name, "stratospheric_aerosol");
+        assert!((depth(&profile, &layer.scattering_per_km, 1) - 0.2).abs() < 1e-4);
+        let highest = (0..profile.altitudes_km.len())
+            .max_by(|&a, &b| layer.scattering_per_km[a * 3].total_cmp(&layer.scattering_per_km[b * 3]))
+            .unwrap();
+        assert!((profile.altitudes_km[highest] - 24.0).abs() < 1.1);
+        // Droplets of half a micrometre scatter yellow and red light nearly as well as blue: the skies are milky.
+        let ratio = depth(&profile, &layer.scattering_per_km, 2) / depth(&profile, &layer.scattering_per_km, 0);
+        assert!((0.7..1.1).contains(&ratio), "{ratio}");
     }
 
     #[test]

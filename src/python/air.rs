@@ -3,7 +3,7 @@
 use super::arrays;
 use super::errors::InputError;
 use super::work;
-use crate::atmosphere::{self, AirParameters, Ground, OpticalProfile};
+use crate::atmosphere::{self, AirParameters, Ground, OpticalProfile, PhaseTable};
 use crate::quality::Quality;
 use crate::sky;
 use numpy::PyArray1;
@@ -17,16 +17,19 @@ use std::sync::Arc;
 /// Parameters
 /// ----------
 /// preset
-///     Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic" or "thesis".
+///     Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "fog", "volcanic" or
+///     "thesis".
 /// aerosol
 ///     Kind of haze: "none", "continental_clean", "continental_average", "continental_polluted", "urban", "maritime_clean",
-///     "desert", "antarctic" or "thesis".
+///     "maritime_polluted", "maritime_tropical", "desert", "arctic", "antarctic", "fog" or "thesis".
+/// relative_humidity
+///     With which the particles grow, 0 to 99; 80 by default. [%]
 /// aod550
-///     Vertical optical depth of the haze at 550 nm, 0 to 10.
+///     Vertical optical depth of the haze at 550 nm, 0 to 50.
 /// turbidity
 ///     Optical depth of haze and molecules over that of the molecules at 550 nm, 1 (pure air) to 64.
 /// visibility_km
-///     Horizontal visibility at the ground, from 1. [km]
+///     Horizontal visibility at the ground, from 0.05. [km]
 /// ozone_du
 ///     Ozone column, 0 to 1000. [Dobson units]
 /// ground
@@ -36,9 +39,16 @@ use std::sync::Arc;
 /// single_scattering_albedo
 ///     Replaces the haze's single scattering albedo, 0 to 1.
 /// asymmetry
-///     Replaces the haze's asymmetry parameter, -0.99 to 0.99.
+///     Replaces the haze's asymmetry parameter, -0.99 to 0.99, and so its phase function.
+/// phase_function
+///     How the haze scatters: "mie", "henyey_greenstein" or "cornette_shanks"; "mie" by default, "henyey_greenstein" if ``asymmetry`` is
+///     given.
 /// aerosol_scale_height_km
-///     Replaces the haze's scale height, 0.1 to 20. [km]
+///     Replaces the haze's scale height, or the depth of a layer of fog, 0.1 to 20. [km]
+/// stratospheric_aod550
+///     Vertical optical depth at 550 nm of volcanic sulphuric acid in the stratosphere, 0 to 1; it comes on top of ``aod550``.
+/// stratospheric_altitude_km
+///     Altitude of its middle, 12 to 40; 20 by default. [km]
 /// standard_atmosphere
 ///     Profile of temperature and density, such as "us_standard_1976" or "tropical".
 /// surface_pressure_hpa
@@ -55,14 +65,16 @@ pub struct Atmosphere {
 #[pymethods]
 impl Atmosphere {
     #[new]
-    #[pyo3(signature = (*, preset = "clear", aerosol = None, aod550 = None, turbidity = None, visibility_km = None,
-        ozone_du = None, ground = None, angstrom_exponent = None, single_scattering_albedo = None, asymmetry = None,
-        aerosol_scale_height_km = None, standard_atmosphere = None, surface_pressure_hpa = None,
+    #[pyo3(signature = (*, preset = "clear", aerosol = None, relative_humidity = None, aod550 = None, turbidity = None,
+        visibility_km = None, ozone_du = None, ground = None, angstrom_exponent = None, single_scattering_albedo = None,
+        asymmetry = None, phase_function = None, aerosol_scale_height_km = None, stratospheric_aod550 = None,
+        stratospheric_altitude_km = None, standard_atmosphere = None, surface_pressure_hpa = None,
         quality = "standard", polarisation = false))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         preset: &str,
         aerosol: Option<&str>,
+        relative_humidity: Option<f64>,
         aod550: Option<f64>,
         turbidity: Option<f64>,
         visibility_km: Option<f64>,
@@ -71,7 +83,10 @@ impl Atmosphere {
         angstrom_exponent: Option<f64>,
         single_scattering_albedo: Option<f64>,
         asymmetry: Option<f64>,
+        phase_function: Option<&str>,
         aerosol_scale_height_km: Option<f64>,
+        stratospheric_aod550: Option<f64>,
+        stratospheric_altitude_km: Option<f64>,
         standard_atmosphere: Option<&str>,
         surface_pressure_hpa: Option<f64>,
         quality: &str,
@@ -80,6 +95,7 @@ impl Atmosphere {
         let air = AirParameters {
             preset: preset.parse()?,
             aerosol: aerosol.map(str::parse).transpose()?,
+            relative_humidity,
             aod550,
             turbidity,
             visibility_km,
@@ -88,7 +104,10 @@ impl Atmosphere {
             angstrom_exponent,
             single_scattering_albedo,
             asymmetry,
+            phase_function: phase_function.map(str::parse).transpose()?,
             aerosol_scale_height_km,
+            stratospheric_aod550,
+            stratospheric_altitude_km,
             standard_atmosphere: standard_atmosphere.map(str::parse).transpose()?,
             surface_pressure_hpa,
         };
@@ -294,13 +313,31 @@ impl Phase {
         Ok(Self { inner: atmosphere::Phase::CornetteShanks { asymmetry } })
     }
 
+    /// A function given by numbers. Between the angles its logarithm is linear; it is scaled so that its integral over the sphere is 4 pi,
+    /// and refused if it is further than 5 % from that.
+    ///
+    /// Parameters
+    /// ----------
+    /// angles_deg
+    ///     Scattering angles, ascending from 0 to 180, shape (A,): close together where the function bends. [degrees]
+    /// values
+    ///     Shape (A,), or (W, A) with a row for each wavelength of the profile; not negative.
+    #[staticmethod]
+    fn tabulated(angles_deg: &Bound<'_, PyAny>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let angles: Vec<f64> = arrays::vector("angles_deg", angles_deg)?.into_iter().map(f64::to_radians).collect();
+        let values = arrays::floats("values", values)?;
+        arrays::expect_rows("values", &values, angles.len())?;
+        Ok(Self { inner: atmosphere::Phase::Tabulated(Arc::new(PhaseTable::new(&angles, &values.values)?)) })
+    }
+
     fn __repr__(&self) -> String {
         match &self.inner {
             atmosphere::Phase::Rayleigh { depolarisation } => format!("Phase.rayleigh(depolarisation={depolarisation:?})"),
             atmosphere::Phase::HenyeyGreenstein { asymmetry } => format!("Phase.henyey_greenstein({asymmetry:?})"),
             atmosphere::Phase::CornetteShanks { asymmetry } => format!("Phase.cornette_shanks({asymmetry:?})"),
-            #[allow(unreachable_patterns, reason = "kinds of particles that no argument can make")]
-            _ => "Phase".to_string(),
+            atmosphere::Phase::Tabulated(table) => {
+                format!("Phase.tabulated(<{} angles>, <{} wavelengths>)", table.angles_rad().len(), table.wavelengths())
+            }
         }
     }
 }

@@ -63,6 +63,15 @@ pub fn expect_matrix(parameter: &str, array: &Values, rows: usize, columns: usiz
     Err(wrong_shape(parameter, &array.shape, &format!("shape ({rows}, {columns}): altitudes, wavelengths")))
 }
 
+/// Checks that `array` is a row of `columns` values, or at least one such row.
+pub fn expect_rows(parameter: &str, array: &Values, columns: usize) -> PyResult<()> {
+    match array.shape[..] {
+        [n] if n == columns => Ok(()),
+        [rows, n] if n == columns && rows > 0 => Ok(()),
+        _ => Err(wrong_shape(parameter, &array.shape, &format!("shape ({columns},) or (W, {columns})"))),
+    }
+}
+
 /// Vectors of three components, shape (N, 3); a single one may come without the first dimension.
 pub fn triples(parameter: &str, argument: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 3]>> {
     let array = floats(parameter, argument)?;

@@ -47,6 +47,7 @@ pub(super) fn scattering_cosine(phase: &Phase, wavelength: usize, random: &mut R
                 return cosine;
             }
         },
+        Phase::Tabulated(table) => table.sample_cosine(wavelength, || random.uniform()),
     }
 }
 
