@@ -33,4 +33,4 @@ mod zenith_axis;
 
 pub use axis::Axis;
 pub use field::{Gathered, LightField, Observer};
-pub use path_tracer::{Estimate, PathTracer};
+pub use path_tracer::{Estimate, Guiding, PathTracer};
