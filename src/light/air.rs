@@ -54,9 +54,10 @@ impl<const N: usize> Air<N> {
                 add_scaled(total, 1.0, &row(&component.absorption_per_km, z));
             }
             if let Some(phase) = &component.phase {
-                let all_moments: Vec<Lanes<N>> = (0..=max_order + MORE_ORDERS)
-                    .map(|l| std::array::from_fn(|lane| phase.legendre_moment(l, index(lane)) as f32))
-                    .collect();
+                let by_lane: Vec<Vec<f64>> =
+                    (0..N).map(|lane| phase.legendre_moments(max_order + MORE_ORDERS + 1, index(lane))).collect();
+                let all_moments: Vec<Lanes<N>> =
+                    (0..=max_order + MORE_ORDERS).map(|l| std::array::from_fn(|lane| by_lane[lane][l] as f32)).collect();
                 let dipole_share: Option<Lanes<N>> = match phase {
                     Phase::Rayleigh { depolarisation } if polarised => Some(std::array::from_fn(|lane| {
                         dipole_share(depolarisation[index(lane).min(depolarisation.len() - 1)]) as f32

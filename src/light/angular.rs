@@ -175,9 +175,9 @@ impl Table {
 
 /// Legendre moments that matter.
 fn moments(phase: &Phase, wavelength: usize) -> Vec<f64> {
-    let mut moments: Vec<f64> = (0..64).map(|l| phase.legendre_moment(l, wavelength)).collect();
+    let mut moments = phase.legendre_moments(64, wavelength);
     if moments[63].abs() > SMALLEST_MOMENT {
-        moments = (0..MOST_MOMENTS).map(|l| phase.legendre_moment(l, wavelength)).collect();
+        moments = phase.legendre_moments(MOST_MOMENTS, wavelength);
     }
     let last = moments.iter().rposition(|m| m.abs() > SMALLEST_MOMENT).unwrap_or(0);
     moments.truncate(last + 1);

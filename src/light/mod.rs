@@ -38,5 +38,5 @@ mod zenith_axis;
 pub use angular::AngularFunctions;
 pub use axis::Axis;
 pub use field::{Gathered, LightField, Observer};
-pub use path_tracer::{Estimate, PathTracer};
+pub use path_tracer::{Estimate, Guiding, PathTracer};
 pub use stokes::transverse;

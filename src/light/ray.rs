@@ -106,6 +106,13 @@ impl<const N: usize> Ray<N> {
         tau
     }
 
+    /// Angle around the centre of the planet of `radius` [km] that the ray passes over [degrees].
+    pub fn reach_deg(&self, radius: f64) -> f64 {
+        let Some(last) = self.points.last() else { return 0.0 };
+        let s = (1.0 - self.zenith_cosine * self.zenith_cosine).max(0.0).sqrt();
+        (last.distance * s).atan2(radius + self.start_altitude + last.distance * self.zenith_cosine).to_degrees()
+    }
+
     /// Adds the points between two distances; false when nothing is left to see.
     fn march(&mut self, air: &Air<N>, r0: f64, begin: f64, end: f64, tau: &mut Lanes<N>, limits: StepLimits) -> bool {
         let mu = self.zenith_cosine;

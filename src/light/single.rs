@@ -10,30 +10,35 @@ use super::sunlight::Sunlight;
 use super::suns::SunOnRay;
 use std::f64::consts::PI;
 
-/// Adds the strength of each scattering component along `ray` to `strengths`.
+/// Adds the strength of each scattering component along `ray` to `strengths`, (Sun, component), for many positions of the Sun; `stride` is the distance between Suns in `strengths`.
 #[inline(always)]
 pub fn add_strengths<const N: usize>(
     air: &Air<N>,
     sunlight: &Sunlight<N>,
     ray: &Ray<N>,
-    sun: &SunOnRay,
+    suns: &[SunOnRay],
+    stride: usize,
     strengths: &mut [Lanes<N>],
 ) {
+    let mut scattered = vec![splat::<N>(0.0); air.scatterers().len()];
     for point in &ray.points {
-        let Some(sunlit) = sunlight.over_disc(point.altitude, sun.zenith_cosine(point.distance, point.radius)) else {
-            continue;
-        };
-        let mut light = sunlit;
-        for n in 0..N {
-            light[n] *= point.weight[n] * (0.25 / PI) as f32;
+        for (value, scatterer) in scattered.iter_mut().zip(air.scatterers()) {
+            *value = scatterer.coefficient(point.place);
+            for n in 0..N {
+                value[n] *= point.weight[n] * (0.25 / PI) as f32;
+            }
         }
-        for (strength, scatterer) in strengths.iter_mut().zip(air.scatterers()) {
-            add_product(strength, &light, &scatterer.coefficient(point.place));
+        let here = sunlight.at(point.altitude);
+        for (sun, strengths) in suns.iter().zip(strengths.chunks_exact_mut(stride)) {
+            let Some(light) = here.over_disc(sun.zenith_cosine(point.distance, point.radius)) else { continue };
+            for (strength, scattered) in strengths.iter_mut().zip(&scattered) {
+                add_product(strength, &light, scattered);
+            }
         }
     }
 }
 
-/// The same, and after each strength the path: the mean over what is scattered of the scattering optical depth, by the same component, that the light passes on its
+/// The same for one position of the Sun, and after each strength the path: the mean over what is scattered of the scattering optical depth, by the same component, that the light passes on its
 /// way to the point and from there, times the strength.
 #[inline(always)]
 pub fn add_strengths_and_paths<const N: usize>(

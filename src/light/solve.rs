@@ -36,6 +36,10 @@ const MAX_ITERATIONS: usize = 60;
 /// How many times more directions sunlight that is scattered once asks for than the smoother light scattered many times.
 const SUNLIT_DENSITY: usize = 2;
 
+/// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
+const FEWEST_AZIMUTHS: usize = 4;
+const AZIMUTHS_PER_DEGREE: f64 = 1.5;
+
 /// One block of wavelengths, solved.
 pub struct Block {
     /// The air.
@@ -94,7 +98,7 @@ pub fn solve(
     let stage = |from: f64, to: f64| Stage { progress, from, to };
 
     let coarse = Target::new(iteration_grid, &air, numbers.iteration_zenith_nodes, limits);
-    let once = operator.scatter_sunlight(&coarse, shape.truncated(LOW_ORDER), &many, &many, &stage(0.05, 0.15))?;
+    let once = operator.scatter_sunlight(&coarse, shape.truncated(LOW_ORDER), many.len(), &many, &stage(0.05, 0.15))?;
     let mut low = once.clone();
     let mut anderson = Anderson::new();
     for iteration in 0..MAX_ITERATIONS {
@@ -112,7 +116,7 @@ pub fn solve(
     let once = {
         let finest = Target::new(grid, &air, numbers.zenith_nodes.map(|n| n * SUNLIT_DENSITY), limits);
         let azimuths = azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY);
-        operator.scatter_sunlight(&finest, shape, &many, &azimuths, &stage(0.4, 0.55))?
+        operator.scatter_sunlight(&finest, shape, many.len(), &azimuths, &stage(0.4, 0.55))?
     };
     let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
     let (mut source_grid, mut field) = (iteration_grid, low);
@@ -140,17 +144,16 @@ fn stokes(shape: Shape) -> usize {
 
 impl Operator<'_> {
     /// The field of sunlight scattered once and of sunlight reflected by the ground.
-    fn scatter_sunlight(
-        &self,
-        target: &Target,
-        shape: Shape,
-        few: &[Azimuth],
+    fn scatter_sunlight(&self, target: &Target, shape: Shape, most: usize,
         many: &[Azimuth],
         stage: &Stage,
     ) -> Result<Field<LANES>> {
-        let azimuths = Azimuths { few, many, interpolation: azimuth_interpolation(few, many) };
+        let sets: Vec<Azimuths> = (FEWEST_AZIMUTHS.min(most)..=most).map(|few| Azimuths::new(few, many)).collect();
         collect(target, shape, many, stage, |ray, radiance| {
-            sunlit_radiance(target.grid, self.air, self.sunlight, &azimuths, stokes(shape), ray, radiance);
+            // The farther a ray runs over the ground, the more the Sun along it depends on azimuth.
+            let wanted = FEWEST_AZIMUTHS + (AZIMUTHS_PER_DEGREE * ray.reach_deg(self.air.radius)) as usize;
+            let azimuths = &sets[wanted.min(most).saturating_sub(FEWEST_AZIMUTHS)];
+            sunlit_radiance(target.grid, self.air, self.sunlight, azimuths, stokes(shape), ray, radiance);
         })
     }
 
@@ -213,9 +216,16 @@ fn collect(
 
 /// Azimuths at which strengths of single scattering are computed, and those at which the radiance is wanted.
 struct Azimuths<'a> {
-    few: &'a [Azimuth],
+    few: Vec<Azimuth>,
     many: &'a [Azimuth],
     interpolation: Vec<f32>,
+}
+
+impl<'a> Azimuths<'a> {
+    fn new(few: usize, many: &'a [Azimuth]) -> Self {
+        let few = azimuths(few);
+        Self { interpolation: azimuth_interpolation(&few, many), few, many }
+    }
 }
 
 /// Stokes parameters along `ray` of sunlight scattered once, or reflected once where it ends, for all solar zenith angles and azimuths. The strengths
@@ -233,19 +243,24 @@ fn sunlit_radiance(
     let r0 = air.radius + ray.start_altitude;
     let (few, many) = (azimuths.few.len(), azimuths.many.len());
     let parts = air.scatterers().len() + 1;
-    let mut sampled = vec![splat::<LANES>(0.0); few * parts];
-    for (&sun, row) in grid.sun.iter().zip(radiance.chunks_exact_mut(many * stokes)) {
-        sampled.fill(splat(0.0));
-        for (azimuth, sample) in azimuths.few.iter().zip(sampled.chunks_exact_mut(parts)) {
-            let on_ray = SunOnRay::new(r0, ray.zenith_cosine, (azimuth.cosine, azimuth.sine), sun);
-            add_strengths(air, sunlight, ray, &on_ray, &mut sample[..parts - 1]);
-            if let Some((distance, transmittance)) = &ray.ground {
-                let irradiance = direct_ground_irradiance(air, sunlight, on_ray.zenith_cosine(*distance, air.radius));
-                for n in 0..LANES {
-                    sample[parts - 1][n] = transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
-                }
+    let on_rays: Vec<SunOnRay> = grid
+        .sun
+        .iter()
+        .flat_map(|&sun| azimuths.few.iter().map(move |a| SunOnRay::new(r0, ray.zenith_cosine, (a.cosine, a.sine), sun)))
+        .collect();
+    let mut sampled = vec![splat::<LANES>(0.0); on_rays.len() * parts];
+    add_strengths(air, sunlight, ray, &on_rays, parts, &mut sampled);
+    if let Some((distance, transmittance)) = &ray.ground {
+        for (on_ray, sample) in on_rays.iter().zip(sampled.chunks_exact_mut(parts)) {
+            let irradiance = direct_ground_irradiance(air, sunlight, on_ray.zenith_cosine(*distance, air.radius));
+            for n in 0..LANES {
+                sample[parts - 1][n] = transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
             }
         }
+    }
+    for ((&sun, row), sampled) in
+        grid.sun.iter().zip(radiance.chunks_exact_mut(many * stokes)).zip(sampled.chunks_exact(few * parts))
+    {
         if sampled.iter().flatten().all(|&value| value == 0.0) {
             continue;
         }

@@ -61,15 +61,6 @@ impl<const N: usize> Field<N> {
         Self { shape, values: vec![splat(0.0); nodes * shape.count()], ground: vec![splat(0.0); grid.zeniths.len()] }
     }
 
-    /// The same field with only the moments up to `order`.
-    pub fn truncated(&self, order: usize) -> Self {
-        let shape = self.shape.truncated(order);
-        let (all, kept) = (self.shape.orders.count(), shape.orders.count());
-        let nodes = self.values.chunks_exact(self.shape.count());
-        let values = nodes.flat_map(|node| node[..kept].iter().chain(&node[all..]).copied()).collect();
-        Self { shape, values, ground: self.ground.clone() }
-    }
-
     /// Adds `other`, of the same shape.
     pub fn add(&mut self, other: &Self) {
         debug_assert_eq!(self.shape, other.shape);

@@ -141,40 +141,14 @@ impl<const N: usize> Sunlight<N> {
     /// the solar zenith angle `mu`; `None` when the disc is hidden entirely.
     #[inline(always)]
     pub fn over_disc(&self, z: f64, mu: f64) -> Option<Lanes<N>> {
-        let horizon = self.horizon(z);
-        let sun_radius = self.sun_radius;
-        // Cosines differ by less than angles: what is not clearly above the horizon is looked at closely.
-        if sun_radius <= 0.0 || mu > horizon + DISC_REACH * sun_radius {
-            return self.transmittance(z, mu);
-        }
-        if mu < horizon - 1.5 * sun_radius {
-            return None;
-        }
-        let above = angle_between(horizon, mu) / sun_radius + 1.0;
-        if above <= 0.0 {
-            return None;
-        }
-        if above >= DISC_REACH {
-            return self.transmittance(z, mu);
-        }
-        let place = (above / DISC_REACH).sqrt();
-        let position = place * (DISC_HEIGHTS - 1) as f64;
-        let column = (position as usize).min(DISC_HEIGHTS - 2);
-        let across = (position - column as f64) as f32;
+        self.at(z).over_disc(mu)
+    }
+
+    /// Prepares for many positions of the Sun at altitude `z` [km].
+    #[inline(always)]
+    pub fn at(&self, z: f64) -> AtAltitude<'_, N> {
         let (level, up) = self.altitudes.locate(z);
-        let base = level * DISC_HEIGHTS + column;
-        let rows = [base, base + 1, base + DISC_HEIGHTS, base + DISC_HEIGHTS + 1].map(|i| &self.log_disc[i]);
-        let weights = [(1.0 - up) * (1.0 - across), (1.0 - up) * across, up * (1.0 - across), up * across];
-        let cube = (place * place * place) as f32;
-        let mut mean = splat(0.0);
-        for (row, weight) in rows.into_iter().zip(weights) {
-            add_scaled(&mut mean, weight, row);
-        }
-        let mut mean = exp(&mean);
-        for m in &mut mean {
-            *m *= cube;
-        }
-        Some(mean)
+        AtAltitude { sunlight: self, altitude: z, horizon: self.horizon(z), level, up }
     }
 
     /// The mean over the disc whose centre stands at `zenith` [radians], `above` the horizon [radians].
@@ -192,6 +166,73 @@ impl<const N: usize> Sunlight<N> {
             }
         }
         mean
+    }
+}
+
+/// Sunlight at one altitude.
+pub struct AtAltitude<'a, const N: usize> {
+    sunlight: &'a Sunlight<N>,
+    altitude: f64,
+    horizon: f64,
+    level: usize,
+    up: f32,
+}
+
+impl<const N: usize> AtAltitude<'_, N> {
+    /// As [`Sunlight::over_disc`].
+    #[inline(always)]
+    pub fn over_disc(&self, mu: f64) -> Option<Lanes<N>> {
+        let sun_radius = self.sunlight.sun_radius;
+        // Cosines differ by less than angles: what is not clearly above the horizon is looked at closely.
+        if sun_radius <= 0.0 || mu > self.horizon + DISC_REACH * sun_radius {
+            return self.centre(mu);
+        }
+        if mu < self.horizon - 1.5 * sun_radius {
+            return None;
+        }
+        let above = angle_between(self.horizon, mu) / sun_radius + 1.0;
+        if above <= 0.0 {
+            return None;
+        }
+        if above >= DISC_REACH {
+            return self.centre(mu);
+        }
+        let place = (above / DISC_REACH).sqrt();
+        let position = place * (DISC_HEIGHTS - 1) as f64;
+        let column = (position as usize).min(DISC_HEIGHTS - 2);
+        let mut mean = self.interpolate(&self.sunlight.log_disc, DISC_HEIGHTS, column, (position - column as f64) as f32);
+        mean = exp(&mean);
+        let cube = (place * place * place) as f32;
+        for m in &mut mean {
+            *m *= cube;
+        }
+        Some(mean)
+    }
+
+    /// Transmittance towards the centre of the disc.
+    #[inline(always)]
+    fn centre(&self, mu: f64) -> Option<Lanes<N>> {
+        if mu < 0.0 || self.altitude >= self.sunlight.top {
+            return self.sunlight.transmittance(self.altitude, mu);
+        }
+        let position = mu.sqrt() * (COSINES - 1) as f64;
+        let column = (position as usize).min(COSINES - 2);
+        let log = self.interpolate(&self.sunlight.log_depth, COSINES, column, (position - column as f64) as f32);
+        Some(exp_minus(&exp(&log)))
+    }
+
+    #[inline(always)]
+    fn interpolate(&self, table: &[Lanes<N>], columns: usize, column: usize, across: f32) -> Lanes<N> {
+        let base = self.level * columns + column;
+        let [a, b] = [0, 1].map(|k| &table[base + k]);
+        let [c, d] = [0, 1].map(|k| &table[base + columns + k]);
+        let (wa, wb) = ((1.0 - self.up) * (1.0 - across), (1.0 - self.up) * across);
+        let (wc, wd) = (self.up * (1.0 - across), self.up * across);
+        let mut value = splat(0.0);
+        for n in 0..N {
+            value[n] = (wa * a[n] + wb * b[n]) + (wc * c[n] + wd * d[n]);
+        }
+        value
     }
 }
 

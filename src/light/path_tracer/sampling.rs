@@ -2,7 +2,6 @@
 //!
 //! Each function draws exactly from the density that it names, by inversion or rejection; none is an approximation.
 
-use crate::atmosphere::Phase;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -30,37 +29,6 @@ fn mix(mut z: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Cosine of a scattering angle with density P / 2, where P is the phase function at wavelength index `wavelength`.
-pub(super) fn scattering_cosine(phase: &Phase, wavelength: usize, random: &mut Random) -> f64 {
-    match phase {
-        Phase::Rayleigh { .. } => {
-            // P / 2 is a mixture of the densities 1/2, of weight `isotropic`, and 3/2 cos^2.
-            let isotropic = phase.basis_weight(0, wavelength);
-            let signed = if random.uniform() < isotropic { return 2.0 * random.uniform() - 1.0 } else { random.uniform() };
-            (2.0 * signed - 1.0).cbrt()
-        }
-        Phase::HenyeyGreenstein { asymmetry } => henyey_greenstein_cosine(*asymmetry, random),
-        Phase::CornetteShanks { asymmetry } => loop {
-            // The Henyey-Greenstein density times (1 + cos^2), which is at most 2.
-            let cosine = henyey_greenstein_cosine(*asymmetry, random);
-            if 2.0 * random.uniform() < 1.0 + cosine * cosine {
-                return cosine;
-            }
-        },
-        Phase::Tabulated(table) => table.sample_cosine(wavelength, || random.uniform()),
-    }
-}
-
-/// Inversion of the cumulative Henyey-Greenstein density (Witt 1977, eq. 19).
-fn henyey_greenstein_cosine(g: f64, random: &mut Random) -> f64 {
-    let u = random.uniform();
-    if g.abs() < 1e-6 {
-        return 2.0 * u - 1.0;
-    }
-    let ratio = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
-    ((1.0 + g * g - ratio * ratio) / (2.0 * g)).clamp(-1.0, 1.0)
-}
-
 /// Two unit vectors that make a right-handed frame with the unit vector `axis` (Duff et al. 2017).
 pub(super) fn frame(axis: DVec3) -> (DVec3, DVec3) {
     let sign = 1.0_f64.copysign(axis.z);
@@ -86,41 +54,6 @@ pub(super) fn lambertian(up: DVec3, random: &mut Random) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Compares the first moments of drawn cosines with the Legendre moments of the phase function.
-    #[test]
-    fn drawn_cosines_have_the_moments_of_the_phase_function() {
-        let phases = [
-            Phase::Rayleigh { depolarisation: vec![0.0] },
-            Phase::Rayleigh { depolarisation: vec![0.03] },
-            Phase::Rayleigh { depolarisation: vec![1.0] },
-            Phase::HenyeyGreenstein { asymmetry: 0.7 },
-            Phase::HenyeyGreenstein { asymmetry: -0.4 },
-            Phase::HenyeyGreenstein { asymmetry: 0.0 },
-            Phase::CornetteShanks { asymmetry: 0.76 },
-        ];
-        for (stream, phase) in phases.iter().enumerate() {
-            let mut random = Random::new(1, stream as u64);
-            let n = 200_000;
-            let mut sums = [0.0; 4];
-            for _ in 0..n {
-                let x = scattering_cosine(phase, 0, &mut random);
-                for (sum, p) in sums.iter_mut().zip([
-                    x,
-                    1.5 * x * x - 0.5,
-                    2.5 * x.powi(3) - 1.5 * x,
-                    (35.0 * x.powi(4) - 30.0 * x * x + 3.0) / 8.0,
-                ]) {
-                    *sum += p;
-                }
-            }
-            for (l, sum) in sums.iter().enumerate() {
-                // A Legendre polynomial has a standard deviation of at most 1.
-                let limit = 4.0 / (n as f64).sqrt();
-                assert!((sum / n as f64 - phase.legendre_moment(l + 1, 0)).abs() < limit, "{phase:?}, order {}", l + 1);
-            }
-        }
-    }
 
     #[test]
     fn frames_are_orthonormal_everywhere() {

@@ -1,0 +1,116 @@
+//! The solver against the path tracer in the same air, direction by direction.
+//!
+//! ```text
+//! cargo run --release --example judge -- --sun -12 --view 60 --azimuth 0 --wavelength 550 --paths 100000
+//! ```
+//!
+//! Each option takes one number or several with commas between; all combinations are computed. Others: `--altitude` (observer, km), `--aod`, `--aerosol`, `--asymmetry`, `--quality`, `--seed`,
+//! `--polarised` (the path tracer then follows polarisation and prints Q/I and U/I too), `--plain` (paths without a guide), `--guided` (with it by day too), `--batches N` (repeats each
+//! estimate with N seeds and prints the scatter of the means over the standard error, which is 1 where the standard error tells the truth).
+
+use glam::DVec3;
+use skyprobe::atmosphere::AirParameters;
+use skyprobe::light::{Guiding, LightField, Observer, PathTracer};
+use skyprobe::progress::Progress;
+use skyprobe::quality::Quality;
+use std::collections::HashMap;
+use std::time::Instant;
+
+/// The options that were given, and their defaults.
+struct Options(HashMap<String, String>);
+
+impl Options {
+    fn parse() -> Self {
+        let mut given = HashMap::new();
+        let mut arguments = std::env::args().skip(1);
+        while let Some(name) = arguments.next() {
+            let name = name.trim_start_matches("--").to_string();
+            let flag = matches!(name.as_str(), "polarised" | "plain" | "guided");
+            let value = if flag { String::from("1") } else { arguments.next().unwrap_or_default() };
+            given.insert(name, value);
+        }
+        Self(given)
+    }
+
+    fn numbers(&self, name: &str, default: &str) -> Vec<f64> {
+        let text = self.0.get(name).map_or(default, String::as_str);
+        text.split(',').map(|value| value.parse().unwrap_or_else(|_| panic!("--{name} {text}: not numbers"))).collect()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+}
+
+/// The solver's radiance for a solar irradiance of 1 \[sr-1\] at wavelength index `wavelength`.
+fn solved(field: &LightField, wavelength: usize, altitude_km: f64, sun_deg: f64, view: DVec3) -> f64 {
+    let sun = sun_deg.to_radians();
+    let gathered = field.gather(&Observer { altitude_km, sun_zenith: sun }, view.z, &[view.y.atan2(view.x)]);
+    let cosine = view.z * sun.cos() + view.x * sun.sin();
+    field.radiance(&gathered, 0, wavelength, cosine)
+}
+
+fn main() -> skyprobe::Result<()> {
+    let options = Options::parse();
+    let wavelengths = options.numbers("wavelength", "550");
+    let paths = options.numbers("paths", "100000")[0] as usize;
+    let (altitude, seed) = (options.numbers("altitude", "0")[0], options.numbers("seed", "1")[0] as u64);
+    let batches = options.numbers("batches", "1")[0].max(1.0) as u64;
+    let mut air = AirParameters::default();
+    air.aod550 = options.has("aod").then(|| options.numbers("aod", "0.1")[0]);
+    air.asymmetry = options.has("asymmetry").then(|| options.numbers("asymmetry", "0.7")[0]);
+    if let Some(kind) = options.0.get("aerosol") {
+        air.aerosol = Some(kind.parse()?);
+    }
+    let quality: Quality = options.0.get("quality").map_or("high", String::as_str).parse()?;
+    let profile = air.optical_profile(&wavelengths)?;
+    let field = LightField::solve(&profile, &quality.numbers(), options.has("polarised"), &Progress::silent())?;
+    println!("   sun  view azimuth    nm   single/all  path tracer   +- %  largest %  seconds      solver      %  errors");
+    for (index, wavelength) in wavelengths.iter().enumerate() {
+        let guiding = match (options.has("plain"), options.has("guided")) {
+            (true, _) => Guiding::Never,
+            (_, true) => Guiding::Always,
+            _ => Guiding::Automatic,
+        };
+        let tracer = PathTracer::new(&profile, index)?.with_polarisation(options.has("polarised")).with_guiding(guiding);
+        for sun in options.numbers("sun", "-6") {
+            for zenith in options.numbers("view", "0,60,85") {
+                for azimuth in options.numbers("azimuth", "0,180") {
+                    let (sine, cosine) = zenith.to_radians().sin_cos();
+                    let (sine_azimuth, cosine_azimuth) = azimuth.to_radians().sin_cos();
+                    let view = DVec3::new(sine * cosine_azimuth, sine * sine_azimuth, cosine);
+                    let sun_zenith = 90.0 - sun;
+                    let single = tracer.single_scattering(altitude, sun_zenith, view)?;
+                    let start = Instant::now();
+                    let runs: Vec<_> = (0..batches)
+                        .map(|b| tracer.stokes(altitude, sun_zenith, view, paths, seed + b))
+                        .collect::<Result<_, _>>()?;
+                    let seconds = start.elapsed().as_secs_f64();
+                    let n = batches as f64;
+                    let mean = |i: usize| runs.iter().map(|run| run[i].mean).sum::<f64>() / n;
+                    let error = (runs.iter().map(|run| run[0].standard_error.powi(2)).sum::<f64>()).sqrt() / n;
+                    let largest = runs.iter().map(|run| run[0].largest_share).fold(0.0, f64::max);
+                    let traced = mean(0);
+                    let solver = solved(&field, index, altitude, sun_zenith, view);
+                    print!(
+                        "{sun:6.1} {zenith:5.1} {azimuth:7.1} {wavelength:5.0} {:12.4} {traced:12.5e} {:6.2} {:10.2} {seconds:8.1} {solver:11.4e} {:+6.2} {:+7.2}",
+                        single / traced,
+                        100.0 * error / traced,
+                        100.0 * largest,
+                        100.0 * (solver / traced - 1.0),
+                        (solver - traced) / error
+                    );
+                    if batches > 1 {
+                        let chi2: f64 = runs.iter().map(|run| ((run[0].mean - traced) / run[0].standard_error).powi(2)).sum();
+                        print!("  scatter {:.2}", (chi2 / (n - 1.0)).sqrt());
+                    }
+                    if options.has("polarised") {
+                        print!("  Q/I {:+.4} U/I {:+.4}", mean(1) / traced, mean(2) / traced);
+                    }
+                    println!();
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! Making the guide: successive orders of scattering on a coarse grid.
+
+use super::bins::{AZIMUTHS, BINS, ZENITHS, azimuth_range, solid_angle, zenith_range};
+use super::flight::{Flight, Ray};
+use super::tables::horizon_cosine;
+use super::{Guide, LEVELS, SUNS, sun_cosine};
+use crate::light::path_tracer::medium::Medium;
+use crate::light::path_tracer::shells::{Chord, End};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Orders of scattering that are summed.
+const ORDERS: usize = 9;
+
+/// A phase function counts as at most this: paths seek its peak by themselves.
+const LARGEST_PHASE: f64 = 6.0;
+
+/// What stands for no light.
+pub(super) const NONE: f64 = 1e-40;
+
+impl Guide {
+    /// Maps the light of `medium`.
+    pub fn new(medium: &Medium) -> Self {
+        let mut guide = Self::new_empty(medium);
+        let mut radiance = Vec::new();
+        for _ in 0..ORDERS {
+            radiance = guide.radiance_in_bins(medium);
+            guide.take_means(medium, &radiance);
+        }
+        guide.take_bins(&radiance);
+        guide
+    }
+
+    /// Radiance in the middle of all bins, (level, zenith, Sun, azimuth): rows share the geometry of their ray.
+    fn radiance_in_bins(&self, medium: &Medium) -> Vec<f64> {
+        let rows: Vec<Vec<f64>> = (0..LEVELS * ZENITHS)
+            .into_par_iter()
+            .map(|row| {
+                let altitude = self.altitude(row / ZENITHS);
+                let (low, high) = zenith_range(row % ZENITHS, horizon_cosine(self.tables.radius, altitude));
+                let mut out = vec![0.0; SUNS * AZIMUTHS];
+                if high <= low {
+                    return out;
+                }
+                let cosine = 0.5 * (low + high);
+                let chord = Chord { altitude, radius: self.tables.radius + altitude, cosine };
+                let (end, length) = medium.shells.end(&chord);
+                let mut flight = Flight::default();
+                let mut phases = vec![0.0; medium.scatterers.len()];
+                for (k, value) in out.iter_mut().enumerate() {
+                    let sun_zenith_cosine = sun_cosine(k / AZIMUTHS);
+                    let (near, far) = azimuth_range(k % AZIMUTHS);
+                    let sines = (1.0 - sun_zenith_cosine.powi(2)).max(0.0).sqrt() * (1.0 - cosine * cosine).max(0.0).sqrt();
+                    let sun_cosine = cosine * sun_zenith_cosine + sines * (0.5 * (near + far)).cos();
+                    for (phase, scatterer) in phases.iter_mut().zip(&medium.scatterers) {
+                        *phase = scatterer.phase(medium.wavelength, sun_cosine).min(LARGEST_PHASE);
+                    }
+                    let ends_on_ground = end == End::Ground;
+                    let ray = Ray { chord, length, ends_on_ground, sun_zenith_cosine, sun_cosine, phases: Some(&phases) };
+                    *value = flight.radiance(self, &ray);
+                }
+                out
+            })
+            .collect();
+        rows.concat()
+    }
+
+    fn altitude(&self, level: usize) -> f64 {
+        self.tables.top * (level as f64 / (LEVELS - 1) as f64).powi(2)
+    }
+
+    /// Mean intensities and the irradiance of the ground from the radiance in the bins.
+    fn take_means(&mut self, medium: &Medium, radiance: &[f64]) {
+        for level in 0..LEVELS {
+            let horizon = horizon_cosine(self.tables.radius, self.altitude(level));
+            for sun in 0..SUNS {
+                let (mut mean, mut irradiance) = (0.0, 0.0);
+                for bin in 0..BINS {
+                    let (i, j) = (bin / AZIMUTHS, bin % AZIMUTHS);
+                    let light = 2.0 * solid_angle(i, j, horizon) * radiance[index(level, sun, i, j)];
+                    let (low, high) = zenith_range(i, horizon);
+                    mean += light / (4.0 * PI);
+                    irradiance += light * (0.5 * (low + high)).max(0.0);
+                }
+                self.ln_mean[level * SUNS + sun] = mean.max(NONE).ln();
+                if level == 0 {
+                    self.ground_by_sky[sun] = medium.ground_albedo / PI * irradiance;
+                }
+            }
+        }
+    }
+
+    /// Probabilities of the bins from the radiance in them.
+    fn take_bins(&mut self, radiance: &[f64]) {
+        self.bins = vec![0.0; LEVELS * SUNS * BINS];
+        for level in 0..LEVELS {
+            let horizon = horizon_cosine(self.tables.radius, self.altitude(level));
+            for sun in 0..SUNS {
+                let light = |bin: usize| {
+                    let (i, j) = (bin / AZIMUTHS, bin % AZIMUTHS);
+                    solid_angle(i, j, horizon) * radiance[index(level, sun, i, j)]
+                };
+                let sum: f64 = (0..BINS).map(light).sum();
+                let start = (level * SUNS + sun) * BINS;
+                for bin in 0..BINS {
+                    self.bins[start + bin] = if sum > 0.0 { (light(bin) / sum) as f32 } else { 1.0 / BINS as f32 };
+                }
+            }
+        }
+    }
+}
+
+fn index(level: usize, sun: usize, zenith: usize, azimuth: usize) -> usize {
+    ((level * ZENITHS + zenith) * SUNS + sun) * AZIMUTHS + azimuth
+}
