@@ -169,8 +169,12 @@ mod tests {
             let fine = mode.ensemble(0.55, index, &angular, 2.1 * refinement);
             assert!((coarse.extinction_um2 / fine.extinction_um2 - 1.0).abs() < 2e-4);
             for (k, (a, b)) in coarse.phase.iter().zip(&fine.phase).enumerate() {
-                // In the glory, many resonances are narrower than any step.
-                let limit = if cosines[k] > -0.996 { 2e-3 } else { 6e-3 };
+                // Towards 180 degrees, transparent spheres have resonances that are narrower than any step.
+                let limit = match cosines[k] {
+                    cosine if cosine > -0.996 => 2e-3,
+                    cosine if cosine > -1.0 => 6e-3,
+                    _ => 1.5e-2,
+                };
                 assert!((a / b - 1.0).abs() < limit, "{mode:?}, angle {k}: {a} {b}");
             }
         }
