@@ -162,6 +162,10 @@ def test_a_wrong_place_or_time_is_named(air: sp.Atmosphere, keywords: dict[str, 
         ({"aod550": 0.1, "turbidity": 3}, r"turbidity = 3: must be left out when aod550 is given"),
         ({"aerosol": "smoke"}, r'aerosol = "smoke": must be one of none, continental_clean'),
         ({"preset": "nice"}, r'preset = "nice": must be one of'),
+        ({"relative_humidity": 100}, r"relative_humidity = 100: must be a number from 0 to 99 %"),
+        ({"phase_function": "mie", "asymmetry": 0.7}, r'phase_function = "mie": must be henyey_greenstein or cornette_shanks'),
+        ({"stratospheric_aod550": 2}, r"stratospheric_aod550 = 2: must be"),
+        ({"stratospheric_altitude_km": 5}, r"stratospheric_altitude_km = 5: must be"),
         ({"ground": "lava"}, r'ground = "lava": must be one of'),
         ({"ground": 1.5}, r"ground = 1.5: must be"),
         ({"ground": None, "quality": "best"}, r'quality = "best": must be'),
@@ -284,6 +288,34 @@ def test_an_air_given_in_full_gives_light() -> None:
         numpy.full((61, 3), 1e-4),
     ))  # fmt: skip
     numpy.testing.assert_allclose(sky.irradiance(WAVELENGTHS_NM).direct_normal, numpy.exp(-coefficients * 1.993), rtol=5e-3)
+
+
+def test_a_tabulated_phase_function_is_the_function_that_it_holds() -> None:
+    altitudes_km = numpy.linspace(0.0, 60.0, 61)
+    angles_deg = numpy.linspace(0.0, 180.0, 1801)
+    values = (1.0 - 0.7**2) / (1.0 + 0.7**2 - 1.4 * numpy.cos(numpy.radians(angles_deg))) ** 1.5
+
+    def radiance(phase: sp.Phase) -> numpy.ndarray:
+        particles = sp.Component(
+            scattering=0.05 * numpy.exp(-altitudes_km / 2.0)[:, None] * numpy.ones(3), absorption=numpy.zeros((61, 3)), phase=phase
+        )
+        air = sp.Atmosphere.from_profile(altitudes_km, WAVELENGTHS_NM, [particles], solar_irradiance=1.0, quality="draft")
+        return sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=air).spectral_radiance(DIRECTIONS, WAVELENGTHS_NM)
+
+    expected = radiance(sp.Phase.henyey_greenstein(0.7))
+    for table in (values, numpy.tile(values, (3, 1)), 1.03 * values):
+        numpy.testing.assert_allclose(radiance(sp.Phase.tabulated(angles_deg, table)), expected, rtol=1e-3)
+    assert repr(sp.Phase.tabulated(angles_deg, values)) == "Phase.tabulated(<1801 angles>, <1 wavelengths>)"
+    for angles, wrong, message in (
+        (angles_deg[1:], values[1:], "angles = 1800 angles"),
+        (angles_deg, values[1:], r"values = array of shape \(1800\)"),
+        (angles_deg, -values, "values = -"),
+        (angles_deg, 2.0 * values, "values = an integral over the sphere that is 100.0 % off"),
+    ):
+        with pytest.raises(sp.InputError, match=message):
+            sp.Phase.tabulated(angles, wrong)
+    with pytest.raises(sp.InputError, match="a table of 2 wavelengths"):
+        radiance(sp.Phase.tabulated(angles_deg, numpy.tile(values, (2, 1))))
 
 
 def test_wrong_profiles_are_named() -> None:

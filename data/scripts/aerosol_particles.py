@@ -50,7 +50,7 @@ def integrate(index, mode_radius, sigma, largest, cosines):
     wavelength = 0.55
     # Even in ln r for small, in r for large particles.
     small = np.exp(np.arange(math.log(0.005), math.log(1.0), 0.008))
-    radius = np.concatenate([small, np.arange(1.0, largest, 0.008)])
+    radius = np.concatenate([small, np.arange(1.0, largest, 0.003)])
     if sigma is None:
         number = radius**4 * np.exp(-0.0562 * radius**1.77)
     else:

@@ -85,8 +85,9 @@ class Phase:
 
     @staticmethod
     def tabulated(angles_deg: ArrayLike, values: ArrayLike) -> Phase:
-        """A function given by numbers. Between the angles its logarithm is linear; it is scaled so that its integral over the sphere is
-        4 pi, and refused if it is further than 5 % from that.
+        """A function given by numbers. Between the angles its logarithm is linear.
+
+        It is scaled so that its integral over the sphere is 4 pi, and refused if it is further than 5 % from that.
 
         Parameters
         ----------

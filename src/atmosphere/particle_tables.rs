@@ -276,6 +276,40 @@ mod tests {
     }
 
     #[test]
+    fn fog_scatters_as_in_opac() {
+        // checked against: OPAC's file fogr00, volume phase function [1/km] at 550 nm; extinction 0.562 / km
+        let table = Mixture::new(&[(Particle::Fog, 1.0)], 0.0).phase_table(&[550.0]);
+        let value = |degrees: f64| table.value(0, degrees.to_radians().cos()) * 0.562 / (4.0 * std::f64::consts::PI);
+        for (degrees, expected) in [(0.0, 377.0), (0.2, 352.4), (0.5, 248.3), (1.0, 76.19), (1.4, 22.24)] {
+            assert!((value(degrees) / expected - 1.0).abs() < 3e-3, "{degrees}: {}", value(degrees));
+        }
+        // The fogbow and the glory.
+        assert!((value(142.0) / 0.01576 - 1.0).abs() < 0.05, "{}", value(142.0));
+        assert!(value(142.0) > 2.0 * value(132.0) && value(142.0) > 1.5 * value(150.0));
+        assert!(value(180.0) > 3.0 * value(170.0) && value(178.3) > value(179.2));
+    }
+
+    #[test]
+    fn values_between_the_nodes_are_those_of_mie_theory() {
+        // Half way between wavelengths, at angles that are no nodes.
+        for (particle, h) in [(Particle::Fog, 0), (Particle::MineralCoarse, 0), (Particle::WaterSoluble, 4)] {
+            let degrees =
+                [0.0, 0.07, 0.33, 0.81, 1.7, 4.4, 13.0, 47.3, 90.2, 121.7, 139.1, 141.9, 158.3, 174.9, 178.1, 179.7, 180.0];
+            let cosines: Vec<f64> = degrees.iter().map(|d: &f64| d.to_radians().cos()).collect();
+            let distribution = particle.size_distribution(h);
+            let angular = AngularFunctions::new(&cosines, distribution.terms(0.525));
+            let (low, high) = (particle.refractive_index(3, h), particle.refractive_index(4, h));
+            let index = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1));
+            let expected = distribution.ensemble(0.525, index, &angular, 1.0);
+            let table = Mixture::new(&[(particle, 1.0)], particle.humidities()[h]).phase_table(&[525.0]);
+            for (i, cosine) in cosines.iter().enumerate() {
+                let ratio = table.value(0, *cosine) / expected.phase[i];
+                assert!((ratio - 1.0).abs() < 0.01, "{} at {}: {ratio}", particle.name(), degrees[i]);
+            }
+        }
+    }
+
+    #[test]
     fn the_file_is_what_mie_theory_gives() {
         let k = 4;
         for (particle, humidity, table) in [(Particle::Soot, 0, 9), (Particle::MineralAccumulation, 0, 27)] {

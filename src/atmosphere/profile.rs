@@ -237,6 +237,17 @@ mod tests {
     }
 
     #[test]
+    fn fog_is_as_thick_at_the_ground_as_its_visibility_says_and_has_a_top() {
+        let parameters: AirParameters = serde_json::from_str(r#"{"preset": "fog", "visibility_km": 0.1}"#).unwrap();
+        let profile = parameters.optical_profile(&[550.0]).unwrap();
+        let fog = &profile.components[2].scattering_per_km;
+        let extinction = fog[0] + profile.components[0].scattering_per_km[0];
+        assert!((extinction / 39.12 - 1.0).abs() < 2e-3, "{extinction}");
+        let at = |altitude: f64| profile.altitudes_km.iter().position(|z| (z - altitude).abs() < 1e-9).unwrap();
+        assert!(fog[at(0.1)] > 0.98 * fog[0] && fog[at(0.5)] < 0.01 * fog[0]);
+    }
+
+    #[test]
     fn the_stratospheric_aerosol_lies_where_it_was_put() {
         let parameters: AirParameters =
             serde_json::from_str(r#"{"preset": "volcanic", "stratospheric_aod550": 0.2, "stratospheric_altitude_km": 24}"#)

@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(
             read::<crate::atmosphere::AirParameters>("atmosphere", &json!({"aerosol": "smoke"})).unwrap_err().to_string(),
             "atmosphere.aerosol = \"smoke\": must be one of none, continental_clean, continental_average, continental_polluted, urban, \
-             maritime_clean, desert, antarctic, thesis"
+             maritime_clean, maritime_polluted, maritime_tropical, desert, arctic, antarctic, fog, thesis"
         );
     }
 

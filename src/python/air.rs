@@ -313,8 +313,9 @@ impl Phase {
         Ok(Self { inner: atmosphere::Phase::CornetteShanks { asymmetry } })
     }
 
-    /// A function given by numbers. Between the angles its logarithm is linear; it is scaled so that its integral over the sphere is 4 pi,
-    /// and refused if it is further than 5 % from that.
+    /// A function given by numbers. Between the angles its logarithm is linear.
+    ///
+    /// It is scaled so that its integral over the sphere is 4 pi, and refused if it is further than 5 % from that.
     ///
     /// Parameters
     /// ----------
