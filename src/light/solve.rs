@@ -144,7 +144,11 @@ fn stokes(shape: Shape) -> usize {
 
 impl Operator<'_> {
     /// The field of sunlight scattered once and of sunlight reflected by the ground.
-    fn scatter_sunlight(&self, target: &Target, shape: Shape, most: usize,
+    fn scatter_sunlight(
+        &self,
+        target: &Target,
+        shape: Shape,
+        most: usize,
         many: &[Azimuth],
         stage: &Stage,
     ) -> Result<Field<LANES>> {

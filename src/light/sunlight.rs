@@ -7,7 +7,7 @@
 use super::air::Air;
 use super::axis::Axis;
 use super::gauss;
-use super::lanes::{Lanes, add_scaled, exp, exp_minus, splat};
+use super::lanes::{Lanes, add_scaled, exp, exp_minus, exp_one, splat};
 use super::ray::{Ray, StepLimits};
 use crate::units::EARTH_RADIUS_KM;
 use rayon::prelude::*;
@@ -200,13 +200,10 @@ impl<const N: usize> AtAltitude<'_, N> {
         let place = (above / DISC_REACH).sqrt();
         let position = place * (DISC_HEIGHTS - 1) as f64;
         let column = (position as usize).min(DISC_HEIGHTS - 2);
-        let mut mean = self.interpolate(&self.sunlight.log_disc, DISC_HEIGHTS, column, (position - column as f64) as f32);
-        mean = exp(&mean);
         let cube = (place * place * place) as f32;
-        for m in &mut mean {
-            *m *= cube;
-        }
-        Some(mean)
+        Some(self.interpolate(&self.sunlight.log_disc, DISC_HEIGHTS, column, (position - column as f64) as f32, |log| {
+            cube * exp_one(log)
+        }))
     }
 
     /// Transmittance towards the centre of the disc.
@@ -217,20 +214,28 @@ impl<const N: usize> AtAltitude<'_, N> {
         }
         let position = mu.sqrt() * (COSINES - 1) as f64;
         let column = (position as usize).min(COSINES - 2);
-        let log = self.interpolate(&self.sunlight.log_depth, COSINES, column, (position - column as f64) as f32);
-        Some(exp_minus(&exp(&log)))
+        let across = (position - column as f64) as f32;
+        Some(self.interpolate(&self.sunlight.log_depth, COSINES, column, across, |log| exp_one(-exp_one(log))))
     }
 
+    /// `finish` of what stands between four entries of a table.
     #[inline(always)]
-    fn interpolate(&self, table: &[Lanes<N>], columns: usize, column: usize, across: f32) -> Lanes<N> {
+    fn interpolate(
+        &self,
+        table: &[Lanes<N>],
+        columns: usize,
+        column: usize,
+        across: f32,
+        finish: impl Fn(f32) -> f32,
+    ) -> Lanes<N> {
         let base = self.level * columns + column;
-        let [a, b] = [0, 1].map(|k| &table[base + k]);
-        let [c, d] = [0, 1].map(|k| &table[base + columns + k]);
+        let (a, b) = (&table[base], &table[base + 1]);
+        let (c, d) = (&table[base + columns], &table[base + columns + 1]);
         let (wa, wb) = ((1.0 - self.up) * (1.0 - across), (1.0 - self.up) * across);
         let (wc, wd) = (self.up * (1.0 - across), self.up * across);
-        let mut value = splat(0.0);
+        let mut value = [0.0; N];
         for n in 0..N {
-            value[n] = (wa * a[n] + wb * b[n]) + (wc * c[n] + wd * d[n]);
+            value[n] = finish((wa * a[n] + wb * b[n]) + (wc * c[n] + wd * d[n]));
         }
         value
     }
