@@ -499,6 +499,38 @@ class Sky:
             Called with stage and fraction; returning False raises Cancelled.
         """
 
+    def render_to_file(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        width: int = 2048,
+        projection: Literal["latlong", "fisheye"] = "latlong",
+        rows: Literal["centre", "corner"] = "centre",
+        extent: Literal["full", "upper"] = "full",
+        ground: Literal["on", "off", "mirrored"] = "on",
+        sun_disc: bool = True,
+        scale: _Scale = "blender",
+        color_space: _ColorSpace = "lin_rec709",
+        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        half: bool | Literal["off", "refuse", "scale"] | None = None,
+        exposure_stops: float = 0.0,
+        progress: _Progress | None = None,
+    ) -> None:
+        """Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
+        as a whole (but for a PNG).
+
+        Parameters
+        ----------
+        path
+            Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
+        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut
+            As for ``render``.
+        half, exposure_stops
+            As for ``Probe.save``.
+        progress
+            Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
+        """
+
 @final
 class Probe:
     """A rendered image of the light from all directions."""

@@ -4,8 +4,8 @@ use super::air_options::AirOptions;
 use super::options::{ConfigOptions, PlaceOptions};
 use super::{say, terminal};
 use crate::error::{Error, Result, check_range};
-use crate::io::{Config, check_output, describe, json, save};
-use crate::probe::{self, MAX_WIDTH, MIN_WIDTH};
+use crate::io::{Config, check_output, describe, json, render_to_files};
+use crate::probe::{MAX_WIDTH, MIN_WIDTH};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -165,16 +165,11 @@ pub fn run(options: &Options) -> Result<()> {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
     config.output.iter().try_for_each(|path| check_target(path))?;
-    let probe = terminal::with_progress(|progress| {
-        let probe = probe::render(&sky.light(progress)?, &config.probe, progress)?;
+    terminal::with_progress(|progress| {
         let metadata = describe(&sky, config.sun_model, &config.probe);
-        for (index, path) in config.output.iter().enumerate() {
-            progress.report("write", index as f64 / config.output.len() as f64)?;
-            save(path, &probe, &config.file, &metadata)?;
-        }
-        Ok(probe)
+        render_to_files(&sky.light(progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
     })?;
-    let (width, height, sun) = (probe.width, probe.height, sky.sun());
+    let (width, height, sun) = (config.probe.width, config.probe.height(), sky.sun());
     let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);
     config.output.iter().try_for_each(|path| say(&format!("{}: {width} x {height}, {sun}", path.display())))
 }

@@ -3,20 +3,20 @@
 use super::air::Atmosphere;
 use super::arrays;
 use super::errors::InputError;
-use super::probe::Probe;
+use super::probe::{Probe, read_half};
 use super::results::{Body, Illuminance, Irradiance, SunEvents, datetime};
 use super::work;
 use crate::ephemeris::{self, Place, SunModel};
 use crate::error::check_range;
 use crate::io::config::time_at;
-use crate::io::describe;
-use crate::io::json;
+use crate::io::{FileOptions, Half, check_output, describe, json, render_to_files};
 use crate::probe::{self, ProbeSettings};
 use crate::sky;
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Largest departure of a direction's length from 1: what single precision leaves, with room.
@@ -251,21 +251,52 @@ impl Sky {
         gamut: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Probe> {
-        let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
-        let settings = ProbeSettings {
-            width: check_range("width", width as f64, low, high, "pixels")? as usize,
-            projection: projection.parse()?,
-            rows: rows.parse()?,
-            extent: extent.parse()?,
-            ground: ground.parse()?,
-            sun_disc,
-            scale: scale.parse()?,
-            color_space: color_space.parse()?,
-            gamut: json::word("gamut", gamut)?,
-        };
-        settings.validate()?;
+        let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
         let rendered = work::run(py, progress, |progress| probe::render(&self.inner.light(progress)?, &settings, progress))?;
         Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &settings)))
+    }
+
+    /// Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
+    /// as a whole (but for a PNG).
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
+    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut
+    ///     As for ``render``.
+    /// half, exposure_stops
+    ///     As for ``Probe.save``.
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
+    #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
+        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", half = None, exposure_stops = 0.0, progress = None))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn render_to_file(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        width: i64,
+        projection: &str,
+        rows: &str,
+        extent: &str,
+        ground: &str,
+        sun_disc: bool,
+        scale: &str,
+        color_space: &str,
+        gamut: &str,
+        half: Option<&Bound<'_, PyAny>>,
+        exposure_stops: f64,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
+        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops };
+        check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
+        check_output(&path)?;
+        let metadata = describe(&self.inner, self.sun_model, &settings);
+        work::run(py, progress, |progress| {
+            render_to_files(&self.inner.light(progress)?, &settings, &[&path], &options, &metadata, progress)
+        })
     }
 
     fn __repr__(&self) -> String {
@@ -278,6 +309,25 @@ impl Sky {
             _ => format!("<Sky: {sun}>"),
         }
     }
+}
+
+/// The settings that names and a number ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
+fn probe_settings(width: i64, layout: [&str; 4], sun_disc: bool, colour: [&str; 3]) -> PyResult<ProbeSettings> {
+    let ([projection, rows, extent, ground], [scale, color_space, gamut]) = (layout, colour);
+    let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
+    let settings = ProbeSettings {
+        width: check_range("width", width as f64, low, high, "pixels")? as usize,
+        projection: projection.parse()?,
+        rows: rows.parse()?,
+        extent: extent.parse()?,
+        ground: ground.parse()?,
+        sun_disc,
+        scale: scale.parse()?,
+        color_space: color_space.parse()?,
+        gamut: json::word("gamut", gamut)?,
+    };
+    settings.validate()?;
+    Ok(settings)
 }
 
 /// A time as text: a `str` as it is, an aware `datetime` in ISO 8601.
