@@ -162,9 +162,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<Picture> {
 mod tests {
     use super::super::{FileOptions, Metadata, save, tests::gradient};
     use super::*;
-    use ::exr::prelude::Compression;
     use crate::probe::{ProbeSettings, Rows};
     use crate::units::Scale;
+    use ::exr::prelude::Compression;
 
     fn options(half: Half) -> FileOptions {
         FileOptions { half, ..Default::default() }
