@@ -22,7 +22,7 @@ fn solve(criterion: &mut Criterion) {
         let numbers = quality.numbers();
         let profile = AirParameters::default().optical_profile(&wavelengths(numbers.wavelengths)).unwrap();
         group.bench_function(BenchmarkId::from_parameter(name), |bencher| {
-            bencher.iter(|| LightField::solve(&profile, &numbers, &Progress::silent()).unwrap());
+            bencher.iter(|| LightField::solve(&profile, &numbers, true, &Progress::silent()).unwrap());
         });
     }
     group.finish();
@@ -33,7 +33,7 @@ fn see(criterion: &mut Criterion) {
     let quality = Quality::Standard;
     let numbers = quality.numbers();
     let profile = AirParameters::default().optical_profile(&wavelengths(numbers.wavelengths)).unwrap();
-    let field = LightField::solve(&profile, &numbers, &Progress::silent()).unwrap();
+    let field = LightField::solve(&profile, &numbers, true, &Progress::silent()).unwrap();
     let observer = Observer { altitude_km: 0.0, sun_zenith: (90.0 - SUN_ALTITUDE_DEG).to_radians() };
     let azimuths: Vec<f64> =
         (0..numbers.dome_azimuths).map(|a| std::f64::consts::PI * a as f64 / (numbers.dome_azimuths - 1) as f64).collect();
@@ -41,7 +41,7 @@ fn see(criterion: &mut Criterion) {
         bencher.iter(|| field.gather(black_box(&observer), 0.2, &azimuths));
     });
 
-    let air = Arc::new(Atmosphere::new(&AirParameters::default(), quality, false).unwrap());
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), quality, true).unwrap());
     air.solve(&Progress::silent()).unwrap();
     let sky = Sky::with_sun(SUN_ALTITUDE_DEG, 180.0, 0.0, air).unwrap();
     criterion.bench_function("gather a dome (standard)", |bencher| {

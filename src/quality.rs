@@ -36,6 +36,8 @@ pub struct Numbers {
     pub azimuth_nodes: [usize; 2],
     /// Highest order of the spherical harmonics of the light field.
     pub order: usize,
+    /// Highest order around the vertical.
+    pub azimuthal_order: usize,
     /// Applications of the scattering operator with all orders after the low orders have converged.
     pub full_applications: usize,
     /// Relative change at which the successive orders of scattering count as converged.
@@ -60,6 +62,7 @@ impl Quality {
                 zenith_nodes: [6, 5, 3],
                 azimuth_nodes: [5, 6],
                 order: 4,
+                azimuthal_order: 4,
                 full_applications: 1,
                 convergence: 3e-3,
                 step_km: 80.0,
@@ -74,6 +77,7 @@ impl Quality {
                 zenith_nodes: [8, 6, 4],
                 azimuth_nodes: [5, 8],
                 order: 6,
+                azimuthal_order: 4,
                 full_applications: 2,
                 convergence: 1e-3,
                 step_km: 60.0,
@@ -88,6 +92,7 @@ impl Quality {
                 zenith_nodes: [10, 8, 5],
                 azimuth_nodes: [6, 11],
                 order: 8,
+                azimuthal_order: 5,
                 full_applications: 2,
                 convergence: 2e-4,
                 step_km: 30.0,
@@ -102,6 +107,7 @@ impl Quality {
                 zenith_nodes: [16, 12, 8],
                 azimuth_nodes: [8, 16],
                 order: 12,
+                azimuthal_order: 8,
                 full_applications: 3,
                 convergence: 3e-5,
                 step_km: 25.0,

@@ -52,20 +52,20 @@ impl<const N: usize> Anderson<N> {
             }
             self.last = Some((g, f));
         }
-        let moments = field.moments.len();
+        let values = field.values.len();
         // Extrapolation may not make light negative: the energy of a node stays at least a part of the plain iterate's.
-        let pairs = super::harmonics::count(field.order);
+        let count = field.shape.count();
         let plain = &result;
         for (k, value) in next.iter_mut().enumerate() {
-            let energy = if k < moments { (k % pairs == 0).then(|| &plain.moments[k]) } else { Some(&plain.ground[k - moments]) };
+            let energy = if k < values { (k % count == 0).then(|| &plain.values[k]) } else { Some(&plain.ground[k - values]) };
             if let Some(energy) = energy {
                 for n in 0..N {
                     value[n] = value[n].max(0.2 * energy[n]);
                 }
             }
         }
-        field.moments.copy_from_slice(&next[..moments]);
-        field.ground.copy_from_slice(&next[moments..]);
+        field.values.copy_from_slice(&next[..values]);
+        field.ground.copy_from_slice(&next[values..]);
         change
     }
 
@@ -102,7 +102,7 @@ impl<const N: usize> Anderson<N> {
 }
 
 fn flatten<const N: usize>(field: &Field<N>) -> Vec<Lanes<N>> {
-    field.moments.iter().chain(&field.ground).copied().collect()
+    field.values.iter().chain(&field.ground).copied().collect()
 }
 
 fn difference<const N: usize>(a: &[Lanes<N>], b: &[Lanes<N>]) -> Vec<Lanes<N>> {
@@ -111,8 +111,8 @@ fn difference<const N: usize>(a: &[Lanes<N>], b: &[Lanes<N>]) -> Vec<Lanes<N>> {
 
 /// One over the magnitude of the node to which each number of the flattened field belongs.
 fn inverse_magnitudes<const N: usize>(field: &Field<N>) -> Vec<f32> {
-    let pairs = super::harmonics::count(field.order);
-    let nodes = field.magnitudes().into_iter().flat_map(|m| std::iter::repeat_n(1.0 / m, pairs));
+    let count = field.shape.count();
+    let nodes = field.magnitudes().into_iter().flat_map(|m| std::iter::repeat_n(1.0 / m, count));
     nodes.chain(field.ground.iter().map(|g| 1.0 / mean(g))).map(|w| w.min(1e15)).collect()
 }
 
@@ -154,6 +154,8 @@ fn solve_symmetric(mut a: Vec<f64>, mut b: Vec<f64>) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::harmonics::Orders;
+    use super::super::source::Shape;
     use super::*;
 
     #[test]
@@ -167,12 +169,13 @@ mod tests {
     fn a_linear_iteration_ends_after_few_steps() {
         let operator = |x: &Field<16>| {
             let mut y = x.clone();
-            for (k, value) in y.moments.iter_mut().enumerate() {
+            for (k, value) in y.values.iter_mut().enumerate() {
                 *value = value.map(|v| 1.0 + if k % 2 == 0 { 0.9 } else { 0.5 } * v);
             }
             y
         };
-        let mut x = Field { order: 0, moments: vec![[0.0; 16]; 10], ground: vec![[1.0; 16]; 2] };
+        let shape = Shape { orders: Orders::new(0, 0), polarised: false };
+        let mut x = Field { shape, values: vec![[0.0; 16]; 10], ground: vec![[1.0; 16]; 2] };
         let mut anderson = Anderson::new();
         let mut change = 1.0;
         for _ in 0..6 {
@@ -180,6 +183,6 @@ mod tests {
             change = anderson.step(&mut x, y, true);
         }
         assert!(change < 1e-4, "{change}");
-        assert!((x.moments[0][3] - 10.0).abs() < 1e-2 && (x.moments[1][3] - 2.0).abs() < 1e-3);
+        assert!((x.values[0][3] - 10.0).abs() < 1e-2 && (x.values[1][3] - 2.0).abs() < 1e-3);
     }
 }

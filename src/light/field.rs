@@ -1,24 +1,30 @@
 //! The light field of one air, for any Sun, observer and direction.
 
 use super::air::Air;
+use super::angular::AngularFunctions;
+use super::contracted::Contracted;
 use super::grid::Grid;
 use super::lanes::{Lanes, add_scaled, splat};
 use super::ray::{Ray, StepLimits};
-use super::single::{add_strengths, direct_ground_irradiance};
+use super::single::{add_strengths_and_paths, direct_ground_irradiance};
 use super::solve::{Block, LANES, solve};
-use super::source::{Contracted, Interpolated, MAX_ORDER, SunOnRay, Suns};
+use super::source::MAX_ORDER;
+use super::suns::{SunOnRay, Suns};
 use crate::atmosphere::OpticalProfile;
 use crate::error::Result;
 use crate::progress::Progress;
 use crate::quality::Numbers;
 use multiversion::multiversion;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// The solved light of one air: independent of place, time and observer. All values are per unit solar irradiance at the top of the air.
 pub struct LightField {
     grid: Grid,
     blocks: Vec<Block>,
     wavelengths: usize,
+    polarised: bool,
+    functions: Arc<Vec<AngularFunctions>>,
     limits: StepLimits,
 }
 
@@ -33,32 +39,47 @@ pub struct Observer {
 
 /// Light gathered along rays of equal zenith angle and several azimuths, in parts that are smooth in direction.
 ///
-/// Radiance = sum over components of phase function(angle to the Sun) x strength + rest.
+/// Radiance = sum over components of [`AngularFunctions`] (angle to the Sun; wavelength, path) x strength + rest.
 #[derive(Clone, Debug, Default)]
 pub struct Gathered {
     /// Number of wavelengths.
     pub wavelengths: usize,
     /// Number of scattering components.
     pub components: usize,
-    /// Per unit solar irradiance [sr-1], row-major, shape (azimuths, components + 1, wavelengths): for each azimuth the strengths of
-    /// single scattering, component after component, then the rest. [`Self::part`] picks one.
-    pub values: Vec<f32>,
+    /// Number of Stokes parameters of the rest: 1 (I) or 3 (I, Q, U).
+    pub stokes: usize,
+    /// Per unit solar irradiance, row-major, shape (azimuths, parts, wavelengths); the parts are strength [sr-1] and path of each component, then the rest [sr-1].
+    values: Vec<f32>,
 }
 
 impl Gathered {
-    /// Strength of single scattering by component `component` (or, for `component` = the number of components, all other light) at azimuth index `azimuth`.
-    pub fn part(&self, azimuth: usize, component: usize) -> &[f32] {
-        let start = (azimuth * (self.components + 1) + component) * self.wavelengths;
+    /// Strength of single scattering by component `component` at azimuth index `azimuth` [sr-1].
+    pub fn strength(&self, azimuth: usize, component: usize) -> &[f32] {
+        self.part(azimuth, 2 * component)
+    }
+
+    /// Scattering optical depth by component `component` that its light has passed.
+    pub fn path(&self, azimuth: usize, component: usize) -> &[f32] {
+        self.part(azimuth, 2 * component + 1)
+    }
+
+    /// All other light [sr-1]: Stokes parameter `parameter` (0 I, 1 Q, 2 U; those that there are) in the frame of the ray, Q > 0 vertical.
+    pub fn rest(&self, azimuth: usize, parameter: usize) -> &[f32] {
+        self.part(azimuth, 2 * self.components + parameter)
+    }
+
+    fn part(&self, azimuth: usize, part: usize) -> &[f32] {
+        let start = (azimuth * (2 * self.components + self.stokes) + part) * self.wavelengths;
         &self.values[start..start + self.wavelengths]
     }
 }
 
 impl LightField {
-    /// Solves the multiple scattering of `profile`, which must be valid.
+    /// Solves the multiple scattering of `profile`, which must be valid, with its polarisation or as a scalar.
     ///
     /// # Errors
     /// [`crate::Error::Cancelled`].
-    pub fn solve(profile: &OpticalProfile, numbers: &Numbers, progress: &Progress) -> Result<Self> {
+    pub fn solve(profile: &OpticalProfile, numbers: &Numbers, polarised: bool, progress: &Progress) -> Result<Self> {
         debug_assert!(numbers.order <= MAX_ORDER);
         let wavelengths = profile.wavelengths_nm.len();
         let top = *profile.altitudes_km.last().expect("validated profile");
@@ -67,32 +88,37 @@ impl LightField {
         let count = wavelengths.div_ceil(LANES);
         let mut blocks = Vec::with_capacity(count);
         for block in 0..count {
-            let air = Air::new(profile, block * LANES, numbers.order);
+            let air = Air::new(profile, block * LANES, numbers.order, polarised);
             let report = |fraction: f64| progress.report("solve", (block as f64 + fraction) / count as f64);
-            blocks.push(solve(air, &grid, numbers, limits, &report)?);
+            blocks.push(solve(air, &grid, numbers, polarised, limits, &report)?);
         }
-        Ok(Self { grid, blocks, wavelengths, limits })
+        let phases = profile.components.iter().filter_map(|component| component.phase.as_ref());
+        let functions = phases.map(|phase| AngularFunctions::new(phase, wavelengths, numbers.order)).collect::<Vec<_>>();
+        Ok(Self { grid, blocks, wavelengths, polarised, functions: Arc::new(functions), limits })
     }
 
-    /// Number of components that scatter.
-    pub fn components(&self) -> usize {
-        self.blocks[0].air.scatterers().len()
+    /// For each component that scatters, how its light depends on the angle to the Sun.
+    pub fn functions(&self) -> &Arc<Vec<AngularFunctions>> {
+        &self.functions
+    }
+
+    /// Whether Q and U are known.
+    pub fn is_polarised(&self) -> bool {
+        self.polarised
     }
 
     /// Gathers the light that `observer` sees at zenith cosine `mu` and `azimuths` from the Sun [radians], the Sun's disc excluded.
     pub fn gather(&self, observer: &Observer, mu: f64, azimuths: &[f64]) -> Gathered {
-        let components = self.components();
-        let mut out = Gathered {
-            wavelengths: self.wavelengths,
-            components,
-            values: vec![0.0; azimuths.len() * (components + 1) * self.wavelengths],
-        };
-        let mut parts = vec![splat::<LANES>(0.0); azimuths.len() * (components + 1)];
+        let components = self.functions.len();
+        let stokes = if self.polarised { 3 } else { 1 };
+        let stride = 2 * components + stokes;
+        let mut out =
+            Gathered { wavelengths: self.wavelengths, components, stokes, values: vec![0.0; azimuths.len() * stride * self.wavelengths] };
+        let mut parts = vec![splat::<LANES>(0.0); azimuths.len() * stride];
         for (b, block) in self.blocks.iter().enumerate() {
             parts.fill(splat(0.0));
             let ray = Ray::trace(&block.air, &self.grid.shells, observer.altitude_km, mu, self.limits);
-            let source = Interpolated { grid: &self.grid, field: &block.field, magnitudes: &block.magnitudes };
-            gather_block(block, &source, &ray, observer.sun_zenith, azimuths, &mut parts);
+            gather_block(&self.grid, block, &ray, observer.sun_zenith, azimuths, &mut parts);
             let first = b * LANES;
             let count = LANES.min(self.wavelengths - first);
             for (k, part) in parts.iter().enumerate() {
@@ -101,6 +127,36 @@ impl LightField {
             }
         }
         out
+    }
+
+    /// Radiance per unit solar irradiance [sr-1] of gathered light at azimuth index `azimuth` and wavelength index `wavelength`;
+    /// `cosine` is that of the angle to the Sun.
+    pub fn radiance(&self, gathered: &Gathered, azimuth: usize, wavelength: usize, cosine: f64) -> f64 {
+        let once = self.functions.iter().enumerate().map(|(c, functions)| {
+            let path = f64::from(gathered.path(azimuth, c)[wavelength]);
+            functions.value(wavelength, path, cosine) * f64::from(gathered.strength(azimuth, c)[wavelength])
+        });
+        once.sum::<f64>() + f64::from(gathered.rest(azimuth, 0)[wavelength])
+    }
+
+    /// Stokes parameters I, Q, U per unit solar irradiance [sr-1] of gathered light at azimuth index `azimuth` and wavelength index `wavelength`; `transverse` are the components of the
+    /// unit vector to the Sun along e_theta and e_phi of the ray ([`super::transverse`]). Q and U are 0 in light solved as a scalar.
+    pub fn stokes(&self, gathered: &Gathered, azimuth: usize, wavelength: usize, transverse: [f64; 2], cosine: f64) -> [f64; 3] {
+        let mut sum = [self.radiance(gathered, azimuth, wavelength, cosine), 0.0, 0.0];
+        if self.polarised {
+            for (c, functions) in self.functions.iter().enumerate() {
+                if let AngularFunctions::Molecules(weights) = functions {
+                    let [a, b] = transverse;
+                    let strength = f64::from(gathered.strength(azimuth, c)[wavelength]) * weights[wavelength][1];
+                    sum[1] += strength * (b * b - a * a);
+                    sum[2] -= strength * 2.0 * a * b;
+                }
+            }
+            for (parameter, sum) in sum.iter_mut().enumerate().skip(1) {
+                *sum += f64::from(gathered.rest(azimuth, parameter)[wavelength]);
+            }
+        }
+        sum
     }
 
     /// Transmittance to the Sun's disc by wavelength, as a mean over the whole disc (parts behind the horizon count as 0).
@@ -115,39 +171,45 @@ impl LightField {
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn gather_block(
+    grid: &Grid,
     block: &Block,
-    source: &Interpolated<LANES>,
     ray: &Ray<LANES>,
     sun_zenith: f64,
     azimuths: &[f64],
     parts: &mut [Lanes<LANES>],
 ) {
-    let (air, sunlight, grid) = (&block.air, &block.sunlight, source.grid);
-    let stride = air.scatterers().len() + 1;
+    let (air, sunlight, field) = (&block.air, &block.sunlight, &block.field);
+    let paths = 2 * air.scatterers().len();
+    let stokes = if field.shape.polarised { 3 } else { 1 };
     let sun = sun_zenith.sin_cos();
     let r0 = air.radius + ray.start_altitude;
     let on_rays: Vec<SunOnRay> = azimuths.iter().map(|a| SunOnRay::new(r0, ray.zenith_cosine, (a.cos(), a.sin()), sun)).collect();
-    for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(stride)) {
-        add_strengths(air, sunlight, ray, on_ray, &mut part[..stride - 1]);
+    for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(paths + stokes)) {
+        add_strengths_and_paths(air, sunlight, ray, on_ray, &mut part[..paths]);
+        for pair in part[..paths].chunks_exact_mut(2) {
+            for n in 0..LANES {
+                pair[1][n] = if pair[0][n] > 0.0 { pair[1][n] / pair[0][n] } else { 0.0 };
+            }
+        }
     }
     let mut suns = Suns::new(&on_rays);
-    let mut contracted = Contracted::new(grid, source.field.order);
-    let mut scattered = vec![splat(0.0); azimuths.len()];
+    let mut contracted = Contracted::new(grid, field.shape);
+    let mut scattered = vec![splat(0.0); azimuths.len() * stokes];
     for point in &ray.points {
         suns.place(grid, r0, point.distance, point.radius);
-        contracted.fill(source, air, point, suns.range());
-        contracted.add(&suns, &mut scattered);
+        contracted.fill(grid, field, air, point, suns.range(grid));
+        contracted.add(grid, &suns, &mut scattered);
     }
-    for (part, sum) in parts.chunks_exact_mut(stride).zip(&scattered) {
-        add_scaled(&mut part[stride - 1], 1.0, sum);
+    for (part, sums) in parts.chunks_exact_mut(paths + stokes).zip(scattered.chunks_exact(stokes)) {
+        part[paths..].copy_from_slice(sums);
     }
     if let Some((distance, transmittance)) = &ray.ground {
-        for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(stride)) {
+        for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(paths + stokes)) {
             let cosine = on_ray.zenith_cosine(*distance, air.radius);
             let mut irradiance = direct_ground_irradiance(air, sunlight, cosine);
-            add_scaled(&mut irradiance, 1.0, &source.ground_irradiance(cosine));
+            add_scaled(&mut irradiance, 1.0, &field.ground_irradiance(grid, cosine));
             for n in 0..LANES {
-                part[stride - 1][n] += transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
+                part[paths][n] += transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
             }
         }
     }

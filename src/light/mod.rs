@@ -16,8 +16,10 @@
 #![allow(clippy::needless_range_loop)]
 
 mod air;
+mod angular;
 mod anderson;
 mod axis;
+mod contracted;
 mod field;
 pub mod gauss;
 mod grid;
@@ -28,9 +30,13 @@ mod ray;
 mod single;
 mod solve;
 mod source;
+mod stokes;
 mod sunlight;
+mod suns;
 mod zenith_axis;
 
+pub use angular::AngularFunctions;
 pub use axis::Axis;
 pub use field::{Gathered, LightField, Observer};
 pub use path_tracer::{Estimate, PathTracer};
+pub use stokes::transverse;

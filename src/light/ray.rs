@@ -40,7 +40,9 @@ pub struct RayPoint<const N: usize> {
     pub zenith_cosine: f64,
     /// Place in the profile, see [`Air::locate`].
     pub place: (usize, f32),
-    /// Transmittance from the start times the length this point stands for [km].
+    /// Length this point stands for [km].
+    pub length: f32,
+    /// Transmittance from the start times that length [km].
     pub weight: Lanes<N>,
 }
 
@@ -147,6 +149,7 @@ impl<const N: usize> Ray<N> {
                     altitude: altitude_at(t),
                     zenith_cosine: ((r0 * mu + t) / radius).clamp(-1.0, 1.0),
                     place,
+                    length: 0.5 * step as f32,
                     weight,
                 });
             }
@@ -248,7 +251,7 @@ mod tests {
     #[test]
     fn a_glowing_medium_shows_what_it_hides() {
         let profile = exponential_air();
-        let air = Air::<16>::new(&profile, 0, 0);
+        let air = Air::<16>::new(&profile, 0, 0, false);
         let shells = Axis::new((0..=20).map(|i| 100.0 * (f64::from(i) / 20.0).powf(2.2)).collect());
         let limits = StepLimits { length_km: 25.0, optical_depth: 1.0 };
         for (z, mu, tau) in [(0.0, 1.0, 0.1), (100.0, -1.0, 0.1)] {
@@ -268,7 +271,7 @@ mod tests {
     #[test]
     fn rays_end_on_the_ground_or_in_space() {
         let profile = exponential_air();
-        let air = Air::<16>::new(&profile, 0, 0);
+        let air = Air::<16>::new(&profile, 0, 0, false);
         let shells = Axis::new(vec![0.0, 1.0, 10.0, 100.0]);
         let limits = StepLimits { length_km: 25.0, optical_depth: 1.0 };
         let trace = |z, mu| Ray::trace(&air, &shells, z, mu, limits);

@@ -7,13 +7,16 @@
 
 use super::air::Air;
 use super::anderson::Anderson;
+use super::contracted::Contracted;
 use super::grid::{Azimuth, Grid, azimuth_interpolation, azimuths};
-use super::harmonics;
+use super::harmonics::{self, Orders};
 use super::lanes::{Lanes, add_product, add_scaled, splat};
 use super::ray::{Ray, StepLimits};
 use super::single::{add_strengths, direct_ground_irradiance};
-use super::source::{Contracted, Field, Interpolated, Magnitudes, SunOnRay, Suns};
+use super::source::{Field, MAX_ORDER, Relative, Shape};
+use super::stokes::{add_tensor, single_dipole};
 use super::sunlight::Sunlight;
+use super::suns::{SunOnRay, Suns};
 use crate::error::Result;
 use crate::quality::Numbers;
 use multiversion::multiversion;
@@ -30,6 +33,9 @@ const LOW_ORDER: usize = 2;
 /// Iterations after which the solve goes on with what it has; never reached with air that lets light through.
 const MAX_ITERATIONS: usize = 60;
 
+/// How many times more directions sunlight that is scattered once asks for than the smoother light scattered many times.
+const SUNLIT_DENSITY: usize = 2;
+
 /// One block of wavelengths, solved.
 pub struct Block {
     /// The air.
@@ -37,9 +43,7 @@ pub struct Block {
     /// Transmittance to the Sun.
     pub sunlight: Sunlight<LANES>,
     /// Light scattered at least once.
-    pub field: Field<LANES>,
-    /// How bright the field is at its nodes.
-    pub magnitudes: Magnitudes,
+    pub field: Relative<LANES>,
 }
 
 /// What an application of the operator needs.
@@ -77,38 +81,43 @@ pub fn solve(
     air: Air<LANES>,
     grid: &Grid,
     numbers: &Numbers,
+    polarised: bool,
     limits: StepLimits,
     progress: &(dyn Fn(f64) -> Result<()> + Sync),
 ) -> Result<Block> {
     let sunlight = Sunlight::new(&air);
-    progress(0.1)?;
+    progress(0.05)?;
     let coarse = Rays::trace(grid, &air, numbers.iteration_zenith_nodes, limits);
     let fine = Rays::trace(grid, &air, numbers.zenith_nodes, limits);
     let operator = Operator { grid, air: &air, sunlight: &sunlight };
     let [few, many] = numbers.azimuth_nodes.map(azimuths);
+    let shape = Shape { orders: Orders::new(numbers.order, numbers.azimuthal_order), polarised };
 
     let stage = |from: f64, to: f64| Stage { progress, from, to };
-    let once = operator.scatter_sunlight(&fine, numbers.order, &few, &many, &stage(0.1, 0.3))?;
+    let once = {
+        let finest = Rays::trace(grid, &air, numbers.zenith_nodes.map(|n| n * SUNLIT_DENSITY), limits);
+        operator.scatter_sunlight(&finest, shape, &many, &azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY), &stage(0.05, 0.3))?
+    };
     let once_low = once.truncated(LOW_ORDER);
     let mut field = once_low.clone();
     let mut anderson = Anderson::new();
     for iteration in 0..MAX_ITERATIONS {
         // How many iterations there will be is not known: each takes an eighth of what is left of this part.
         let part = |iteration: usize| 0.7 - 0.4 * 0.875_f64.powi(iteration as i32);
-        let mut next = operator.scatter(&coarse, &field, LOW_ORDER, &few, &stage(part(iteration), part(iteration + 1)))?;
-        add(&mut next, &once_low);
-        let change = anderson.step(&mut field, next, iteration >= 2);
+        let mut next = operator.scatter(&coarse, &field, field.shape, &few, &stage(part(iteration), part(iteration + 1)))?;
+        next.add(&once_low);
+        let change = anderson.step(&mut field, next, iteration >= 1);
         if change < numbers.convergence {
             break;
         }
     }
     for application in 0..numbers.full_applications {
         let part = |application: usize| 0.7 + 0.3 * application as f64 / numbers.full_applications as f64;
-        field = operator.scatter(&fine, &field, numbers.order, &many, &stage(part(application), part(application + 1)))?;
-        add(&mut field, &once);
+        field = operator.scatter(&fine, &field, shape, &many, &stage(part(application), part(application + 1)))?;
+        field.add(&once);
     }
-    let magnitudes = Magnitudes::new(&field);
-    Ok(Block { air, sunlight, field, magnitudes })
+    let field = Relative::new(&field);
+    Ok(Block { air, sunlight, field })
 }
 
 /// The part of the progress that one application of the operator makes.
@@ -118,76 +127,57 @@ struct Stage<'a> {
     to: f64,
 }
 
-fn add(field: &mut Field<LANES>, other: &Field<LANES>) {
-    for (a, b) in field.moments.iter_mut().zip(&other.moments) {
-        add_scaled(a, 1.0, b);
-    }
-    for (a, b) in field.ground.iter_mut().zip(&other.ground) {
-        add_scaled(a, 1.0, b);
-    }
+/// Stokes parameters that light has.
+fn stokes(shape: Shape) -> usize {
+    if shape.polarised { 3 } else { 1 }
 }
 
 impl Operator<'_> {
     /// The field of sunlight scattered once and of sunlight reflected by the ground.
-    fn scatter_sunlight(
-        &self,
-        rays: &Rays,
-        order: usize,
-        few: &[Azimuth],
-        many: &[Azimuth],
-        stage: &Stage,
-    ) -> Result<Field<LANES>> {
+    fn scatter_sunlight(&self, rays: &Rays, shape: Shape, few: &[Azimuth], many: &[Azimuth], stage: &Stage) -> Result<Field<LANES>> {
         let azimuths = Azimuths { few, many, interpolation: azimuth_interpolation(few, many) };
-        self.collect(rays, order, many, stage, |level, direction, radiance| {
-            sunlit_radiance(self.grid, self.air, self.sunlight, &azimuths, &rays.rays[level][direction], radiance);
+        self.collect(rays, shape, many, stage, |level, direction, radiance| {
+            sunlit_radiance(self.grid, self.air, self.sunlight, &azimuths, stokes(shape), &rays.rays[level][direction], radiance);
         })
     }
 
-    /// The field of the light of `field` scattered or reflected once more.
-    fn scatter(
-        &self,
-        rays: &Rays,
-        field: &Field<LANES>,
-        order: usize,
-        azimuths: &[Azimuth],
-        stage: &Stage,
-    ) -> Result<Field<LANES>> {
-        let magnitudes = Magnitudes::new(field);
-        let source = Interpolated { grid: self.grid, field, magnitudes: &magnitudes };
-        self.collect(rays, order, azimuths, stage, |level, direction, radiance| {
-            scattered_radiance(&source, self.air, azimuths, &rays.rays[level][direction], radiance);
+    /// The field, as `shape` says, of the light of `field` scattered or reflected once more.
+    fn scatter(&self, rays: &Rays, field: &Field<LANES>, shape: Shape, azimuths: &[Azimuth], stage: &Stage) -> Result<Field<LANES>> {
+        let source = Relative::new(field);
+        self.collect(rays, shape, azimuths, stage, |level, direction, radiance| {
+            scattered_radiance(self.grid, &source, self.air, azimuths, &rays.rays[level][direction], radiance);
         })
     }
 
-    /// Moments up to `order` of a radiance that `radiance_of(level, direction, out)` gives for all solar zenith angles and azimuths.
+    /// The field of a radiance that `radiance_of(level, direction, out)` gives for all solar zenith angles, azimuths and Stokes parameters.
     fn collect(
         &self,
         rays: &Rays,
-        order: usize,
+        shape: Shape,
         azimuths: &[Azimuth],
         stage: &Stage,
         radiance_of: impl Fn(usize, usize, &mut [Lanes<LANES>]) + Sync,
     ) -> Result<Field<LANES>> {
         let zeniths = self.grid.zeniths.len();
-        let pairs = harmonics::count(order);
-        let mut field = Field::dark(self.grid, order);
+        let stokes = stokes(shape);
+        let width = azimuths.len() * stokes;
+        let mut field = Field::dark(self.grid, shape);
         let (done, levels) = (AtomicUsize::new(0), self.grid.altitudes.len());
-        let ground = &mut field.ground;
         let at_ground = field
-            .moments
-            .par_chunks_exact_mut(zeniths * pairs)
+            .values
+            .par_chunks_exact_mut(zeniths * shape.count())
             .enumerate()
-            .map(|(level, moments)| {
-                let mut radiance = vec![splat(0.0); zeniths * azimuths.len()];
+            .map(|(level, values)| {
+                let mut radiance = vec![splat(0.0); zeniths * width];
                 let mut irradiance = vec![splat(0.0); zeniths];
                 for (direction, &(mu, weight)) in rays.directions[level].iter().enumerate() {
                     radiance.fill(splat(0.0));
                     radiance_of(level, direction, &mut radiance);
-                    project(order, mu, weight, azimuths, &radiance, moments);
+                    project(shape, mu, weight, azimuths, &radiance, values);
                     if level == 0 && mu > 0.0 {
-                        for (j, total) in irradiance.iter_mut().enumerate() {
-                            for (q, azimuth) in azimuths.iter().enumerate() {
-                                add_scaled(total, (mu * weight * azimuth.weight) as f32, &radiance[j * azimuths.len() + q]);
+                        for (total, row) in irradiance.iter_mut().zip(radiance.chunks_exact(width)) {
+                            for (azimuth, value) in azimuths.iter().zip(row.chunks_exact(stokes)) {
+                                add_scaled(total, (mu * weight * azimuth.weight) as f32, &value[0]);
                             }
                         }
                     }
@@ -197,7 +187,7 @@ impl Operator<'_> {
                 Ok(irradiance)
             })
             .collect::<Result<Vec<_>>>()?;
-        ground.copy_from_slice(&at_ground[0]);
+        field.ground.copy_from_slice(&at_ground[0]);
         Ok(field)
     }
 }
@@ -209,7 +199,7 @@ struct Azimuths<'a> {
     interpolation: Vec<f32>,
 }
 
-/// Radiance of sunlight scattered once along `ray`, or reflected once where it ends, for all solar zenith angles and azimuths. The strengths
+/// Stokes parameters along `ray` of sunlight scattered once, or reflected once where it ends, for all solar zenith angles and azimuths. The strengths
 /// and the ground's irradiance are smooth in azimuth, the phase functions are not: only these are evaluated at every azimuth.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn sunlit_radiance(
@@ -217,6 +207,7 @@ fn sunlit_radiance(
     air: &Air<LANES>,
     sunlight: &Sunlight<LANES>,
     azimuths: &Azimuths,
+    stokes: usize,
     ray: &Ray<LANES>,
     radiance: &mut [Lanes<LANES>],
 ) {
@@ -224,7 +215,7 @@ fn sunlit_radiance(
     let (few, many) = (azimuths.few.len(), azimuths.many.len());
     let parts = air.scatterers().len() + 1;
     let mut sampled = vec![splat::<LANES>(0.0); few * parts];
-    for (&sun, row) in grid.sun.iter().zip(radiance.chunks_exact_mut(many)) {
+    for (&sun, row) in grid.sun.iter().zip(radiance.chunks_exact_mut(many * stokes)) {
         sampled.fill(splat(0.0));
         for (azimuth, sample) in azimuths.few.iter().zip(sampled.chunks_exact_mut(parts)) {
             let on_ray = SunOnRay::new(r0, ray.zenith_cosine, (azimuth.cosine, azimuth.sine), sun);
@@ -236,33 +227,45 @@ fn sunlit_radiance(
                 }
             }
         }
-        for ((azimuth, sum), weights) in azimuths.many.iter().zip(row).zip(azimuths.interpolation.chunks_exact(few)) {
+        if sampled.iter().flatten().all(|&value| value == 0.0) {
+            continue;
+        }
+        for ((azimuth, out), weights) in
+            azimuths.many.iter().zip(row.chunks_exact_mut(stokes)).zip(azimuths.interpolation.chunks_exact(few))
+        {
             let on_ray = SunOnRay::new(r0, ray.zenith_cosine, (azimuth.cosine, azimuth.sine), sun);
             for part in 0..parts {
                 let mut value = splat(0.0);
                 for (&weight, sample) in weights.iter().zip(sampled.chunks_exact(parts)) {
                     add_scaled(&mut value, weight, &sample[part]);
                 }
-                if let Some(scatterer) = air.scatterers().get(part) {
-                    add_product(sum, &value, &scatterer.phase(on_ray.scattering_cosine));
-                } else {
-                    add_scaled(sum, 1.0, &value);
+                let Some(scatterer) = air.scatterers().get(part) else {
+                    add_scaled(&mut out[0], 1.0, &value);
+                    continue;
+                };
+                add_product(&mut out[0], &value, &scatterer.band_limited(on_ray.scattering_cosine));
+                if let ([_, q, u], Some(share)) = (&mut *out, &scatterer.dipole_share) {
+                    let [_, by_q, by_u] = single_dipole(on_ray.transverse).map(|v| v as f32);
+                    for n in 0..LANES {
+                        q[n] += by_q * share[n] * value[n];
+                        u[n] += by_u * share[n] * value[n];
+                    }
                 }
             }
         }
     }
 }
 
-/// Radiance along `ray` of the light that `source` scatters into it and that the ground at its end reflects, for all solar zenith angles and azimuths.
+/// Stokes parameters along `ray` of the light that `source` scatters into it and that the ground at its end reflects, for all solar zenith angles and azimuths.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn scattered_radiance(
-    source: &Interpolated<LANES>,
+    grid: &Grid,
+    source: &Relative<LANES>,
     air: &Air<LANES>,
     azimuths: &[Azimuth],
     ray: &Ray<LANES>,
     radiance: &mut [Lanes<LANES>],
 ) {
-    let grid = source.grid;
     let r0 = air.radius + ray.start_altitude;
     let on_rays: Vec<SunOnRay> = grid
         .sun
@@ -270,40 +273,61 @@ fn scattered_radiance(
         .flat_map(|&sun| azimuths.iter().map(move |a| SunOnRay::new(r0, ray.zenith_cosine, (a.cosine, a.sine), sun)))
         .collect();
     let mut suns = Suns::new(&on_rays);
-    let mut contracted = Contracted::new(grid, source.field.order);
+    let mut contracted = Contracted::new(grid, source.shape);
     for point in &ray.points {
-        contracted.fill(source, air, point, 0..grid.zeniths.len());
+        contracted.fill(grid, source, air, point, 0..grid.zeniths.len());
         suns.place(grid, r0, point.distance, point.radius);
-        contracted.add(&suns, radiance);
+        contracted.add(grid, &suns, radiance);
     }
     if let Some((distance, transmittance)) = &ray.ground {
-        for (on_ray, sum) in on_rays.iter().zip(radiance.iter_mut()) {
-            let irradiance = source.ground_irradiance(on_ray.zenith_cosine(*distance, air.radius));
+        for (on_ray, sum) in on_rays.iter().zip(radiance.chunks_exact_mut(stokes(source.shape))) {
+            let irradiance = source.ground_irradiance(grid, on_ray.zenith_cosine(*distance, air.radius));
             for n in 0..LANES {
-                sum[n] += transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
+                sum[0][n] += transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
             }
         }
     }
 }
 
-/// Adds the moments of the radiance in one view zenith angle.
+/// Adds the moments, and the tensor, of the light from one view zenith angle.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
-fn project(order: usize, mu: f64, weight: f64, azimuths: &[Azimuth], radiance: &[Lanes<LANES>], moments: &mut [Lanes<LANES>]) {
-    let mut harmonic = [0.0; harmonics::count(super::source::MAX_ORDER)];
-    harmonics::evaluate(order, mu, &mut harmonic);
-    let pairs = harmonics::count(order);
-    let waves: Vec<f32> =
-        (0..=order).flat_map(|m| azimuths.iter().map(move |a| (weight * a.weight * (m as f64 * a.angle).cos()) as f32)).collect();
-    for (row, node) in radiance.chunks_exact(azimuths.len()).zip(moments.chunks_exact_mut(pairs)) {
-        for m in 0..=order {
+fn project(shape: Shape, mu: f64, weight: f64, azimuths: &[Azimuth], radiance: &[Lanes<LANES>], values: &mut [Lanes<LANES>]) {
+    let orders = shape.orders;
+    let mut harmonic = [0.0; Orders::new(MAX_ORDER, MAX_ORDER).count()];
+    harmonics::evaluate(orders, mu, &mut harmonic);
+    let (stokes, count) = (stokes(shape), azimuths.len());
+    // Only what the tensor needs of waves beyond the moments' own: at most m = 2.
+    let last = orders.azimuthal.max(if shape.polarised { 2 } else { 0 });
+    let table = |wave: &dyn Fn(f64) -> f64, m: usize| -> Vec<f32> {
+        azimuths.iter().map(|a| (weight * a.weight * wave(m as f64 * a.angle)) as f32).collect()
+    };
+    let cosines: Vec<f32> = (0..=last).flat_map(|m| table(&f64::cos, m)).collect();
+    let sines: Vec<f32> = (1..=2).flat_map(|m| table(&f64::sin, m)).collect();
+    for (row, node) in radiance.chunks_exact(count * stokes).zip(values.chunks_exact_mut(shape.count())) {
+        let sum = |waves: &[f32], parameter: usize| {
             let mut sum = splat::<LANES>(0.0);
-            for (&wave, value) in waves[m * azimuths.len()..].iter().zip(row) {
-                add_scaled(&mut sum, wave, value);
+            for (&wave, value) in waves.iter().zip(row.chunks_exact(stokes)) {
+                add_scaled(&mut sum, wave, &value[parameter]);
             }
-            for l in m..=order {
-                let lm = harmonics::index(l, m);
-                add_scaled(&mut node[lm], harmonic[lm], &sum);
+            sum
+        };
+        let mut i = [splat(0.0); 3];
+        for m in 0..=last {
+            let part = sum(&cosines[m * count..(m + 1) * count], 0);
+            if m < 3 {
+                i[m] = part;
             }
+            for l in m..=orders.order {
+                if m <= orders.azimuthal {
+                    let lm = orders.start(l) + m;
+                    add_scaled(&mut node[lm], harmonic[lm], &part);
+                }
+            }
+        }
+        if shape.polarised {
+            let q = [0, 1, 2].map(|m| sum(&cosines[m * count..(m + 1) * count], 1));
+            let u = [0, 1].map(|m| sum(&sines[m * count..(m + 1) * count], 2));
+            add_tensor(&mut node[orders.count()..], mu, 1.0, &i, &q, &u);
         }
     }
 }

@@ -152,7 +152,7 @@ mod tests {
             planet_radius_km: 6371.0,
             sun_angular_radius_deg: 0.2664,
         };
-        Sunlight::new(&Air::new(&profile, 0, 0))
+        Sunlight::new(&Air::new(&profile, 0, 0, false))
     }
 
     /// A disc in a thousand strips, from the transmittance of each.

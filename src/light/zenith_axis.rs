@@ -92,7 +92,7 @@ impl ZenithAxis {
 }
 
 /// Four neighbouring nodes and what each counts (Lagrange).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Stencil {
     /// The first of the four nodes.
     pub first: usize,

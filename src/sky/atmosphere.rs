@@ -13,20 +13,20 @@ pub struct Atmosphere {
     parameters: Option<AirParameters>,
     profile: OpticalProfile,
     quality: Quality,
+    polarised: bool,
     field: OnceLock<LightField>,
     /// Held while solving, so that two threads that need the light at once solve it once.
     solving: Mutex<()>,
 }
 
 impl Atmosphere {
-    /// The air of `parameters`.
+    /// The air of `parameters`. With `polarisation` off light is solved as a scalar, which is wrong by several per cent in clean air: only to compare with scalar codes.
     ///
     /// # Errors
     /// [`Error::Input`] that names the first parameter that cannot be used.
     pub fn new(parameters: &AirParameters, quality: Quality, polarisation: bool) -> Result<Self> {
-        check_polarisation(polarisation)?;
         let profile = parameters.optical_profile(&wavelengths(quality.numbers().wavelengths))?;
-        Ok(Self::unsolved(Some(parameters.clone()), profile, quality))
+        Ok(Self::unsolved(Some(parameters.clone()), profile, quality, polarisation))
     }
 
     /// Air given in full; its light is solved at the wavelengths of the profile.
@@ -34,13 +34,12 @@ impl Atmosphere {
     /// # Errors
     /// [`Error::Input`] that names the first array that cannot be used.
     pub fn from_profile(profile: OpticalProfile, quality: Quality, polarisation: bool) -> Result<Self> {
-        check_polarisation(polarisation)?;
         profile.validate()?;
-        Ok(Self::unsolved(None, profile, quality))
+        Ok(Self::unsolved(None, profile, quality, polarisation))
     }
 
-    fn unsolved(parameters: Option<AirParameters>, profile: OpticalProfile, quality: Quality) -> Self {
-        Self { parameters, profile, quality, field: OnceLock::new(), solving: Mutex::new(()) }
+    fn unsolved(parameters: Option<AirParameters>, profile: OpticalProfile, quality: Quality, polarised: bool) -> Self {
+        Self { parameters, profile, quality, polarised, field: OnceLock::new(), solving: Mutex::new(()) }
     }
 
     /// Solves the multiple scattering, unless that is done.
@@ -61,7 +60,7 @@ impl Atmosphere {
         if let Some(field) = self.field.get() {
             return Ok(field);
         }
-        let field = LightField::solve(&self.profile, &self.quality.numbers(), progress)?;
+        let field = LightField::solve(&self.profile, &self.quality.numbers(), self.polarised, progress)?;
         Ok(self.field.get_or_init(|| field))
     }
 
@@ -73,6 +72,11 @@ impl Atmosphere {
     /// The quality level.
     pub fn quality(&self) -> Quality {
         self.quality
+    }
+
+    /// Whether light is solved with its polarisation.
+    pub fn is_polarised(&self) -> bool {
+        self.polarised
     }
 
     /// Optical properties.
@@ -123,11 +127,4 @@ impl Atmosphere {
         }
         Ok(())
     }
-}
-
-fn check_polarisation(polarisation: bool) -> Result<()> {
-    if polarisation {
-        return Err(Error::input("polarisation", "true", "false: light is solved as a scalar"));
-    }
-    Ok(())
 }

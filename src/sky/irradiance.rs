@@ -1,6 +1,5 @@
 //! What a surface receives, computed from the light field directly and not by way of a picture.
 
-use crate::atmosphere::Phase;
 use crate::error::Result;
 use crate::light::{LightField, Observer, gauss};
 use crate::progress::Progress;
@@ -39,7 +38,6 @@ const AZIMUTHS: usize = 60;
 /// Irradiance of the horizontal plane by the sky, per unit solar irradiance, by wavelength.
 pub(super) fn diffuse_horizontal(
     field: &LightField,
-    phases: &[Phase],
     observer: &Observer,
     progress: &Progress,
 ) -> Result<Vec<f64>> {
@@ -55,7 +53,7 @@ pub(super) fn diffuse_horizontal(
                 let cosine = mu * observer.sun_zenith.cos() + (1.0 - mu * mu).sqrt() * observer.sun_zenith.sin() * azimuth.cos();
                 let share = 2.0 * t * weight * mu * TAU / AZIMUTHS as f64;
                 for (w, total) in sum.iter_mut().enumerate() {
-                    *total += share * radiance(&gathered, phases, a, w, cosine);
+                    *total += share * field.radiance(&gathered, a, w, cosine);
                 }
             }
             parts.finish_one()?;
@@ -63,20 +61,4 @@ pub(super) fn diffuse_horizontal(
         })
         .collect::<Result<Vec<_>>>()?;
     Ok((0..circles[0].len()).map(|w| circles.iter().map(|circle| circle[w]).sum()).collect())
-}
-
-/// Radiance per unit solar irradiance at azimuth index `azimuth` and wavelength index `wavelength`.
-pub(super) fn radiance(
-    gathered: &crate::light::Gathered,
-    phases: &[Phase],
-    azimuth: usize,
-    wavelength: usize,
-    cosine: f64,
-) -> f64 {
-    let once: f64 = phases
-        .iter()
-        .enumerate()
-        .map(|(c, phase)| phase.value(wavelength, cosine) * f64::from(gathered.part(azimuth, c)[wavelength]))
-        .sum();
-    once + f64::from(gathered.part(azimuth, phases.len())[wavelength])
 }

@@ -3,12 +3,14 @@
 mod atmosphere;
 mod disc;
 mod dome;
+mod filter;
 mod irradiance;
 mod place_and_time;
 
 pub use atmosphere::Atmosphere;
 pub use disc::Disc;
 pub use dome::SkyDome;
+pub use filter::PolarisingFilter;
 pub use irradiance::{Illuminance, Irradiance};
 pub use place_and_time::Sky;
 

@@ -3,11 +3,12 @@
 use super::atmosphere::Atmosphere;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING};
 use super::dome::{Gathering, SkyDome};
-use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, radiance};
-use crate::atmosphere::{Phase, molecules};
+use super::filter::PolarisingFilter;
+use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal};
+use crate::atmosphere::molecules;
 use crate::ephemeris::{Body, Place, Refraction, SunModel, horizontal_from_direction, sun, sun_at};
 use crate::error::{Error, Result, check_range};
-use crate::light::{LightField, Observer};
+use crate::light::{Gathered, LightField, Observer, transverse};
 use crate::progress::Progress;
 use crate::spectrum::{ColorSpace, CubicSpline};
 use crate::time::Time;
@@ -90,31 +91,70 @@ impl Sky {
     /// [`Error::Input`] for directions that are not unit vectors and wavelengths that were not solved; [`Error::Cancelled`].
     pub fn spectral_radiance(&self, directions: &[DVec3], wavelengths_nm: &[f64], progress: &Progress) -> Result<Vec<f64>> {
         self.atmosphere.check_wavelengths(wavelengths_nm)?;
-        if let Some(bad) = directions.iter().find(|d| !(0.999..=1.001).contains(&d.length())) {
-            return Err(Error::input(
-                "directions",
-                format!("[{}, {}, {}]", bad.x, bad.y, bad.z),
-                "unit vectors (east, north, up)",
-            ));
+        check_directions(directions)?;
+        let field = self.field(progress)?;
+        let sunlight = self.sunlight(wavelengths_nm);
+        let rows = self.gather_each(field, directions, progress, |gathered, look| {
+            let relative: Vec<f64> = (0..gathered.wavelengths).map(|w| field.radiance(gathered, 0, w, look.cosine)).collect();
+            self.at_wavelengths(&relative, wavelengths_nm, &sunlight)
+        })?;
+        Ok(rows.concat())
+    }
+
+    /// Stokes parameters I, Q, U of the sky in `directions` at `wavelengths_nm` [W m-2 sr-1 nm-1], the Sun's disc excluded, row-major, shape
+    /// (directions, wavelengths, 3). Directions are unit vectors (east, north, up). Q > 0 is polarised vertically, in the plane of view direction and zenith; U > 0 along the direction
+    /// 45 degrees clockwise from the vertical as the observer sees it.
+    ///
+    /// # Errors
+    /// As [`Self::spectral_radiance`]; [`Error::Input`] if the atmosphere was made without polarisation.
+    pub fn stokes(&self, directions: &[DVec3], wavelengths_nm: &[f64], progress: &Progress) -> Result<Vec<f64>> {
+        self.atmosphere.check_wavelengths(wavelengths_nm)?;
+        check_directions(directions)?;
+        if !self.atmosphere.is_polarised() {
+            return Err(Error::input("polarisation", "false", "true, to know more of the light than its radiance"));
         }
         let field = self.field(progress)?;
-        let (phases, observer) = (self.phases(), self.observer());
-        let sun = self.sun.direction();
         let sunlight = self.sunlight(wavelengths_nm);
+        let nodes = &self.atmosphere.profile().wavelengths_nm;
+        let rows: Vec<Vec<f64>> = self.gather_each(field, directions, progress, |gathered, look| {
+            let stokes: Vec<[f64; 3]> = (0..gathered.wavelengths)
+                .map(|w| field.stokes(gathered, 0, w, look.transverse, look.cosine))
+                .collect();
+            let radiance = self.at_wavelengths(&stokes.iter().map(|s| s[0]).collect::<Vec<_>>(), wavelengths_nm, &sunlight);
+            // The degree of polarisation is what is smooth over wavelength and may be negative.
+            let [q, u] = [1, 2].map(|k| {
+                CubicSpline::new(nodes, &stokes.iter().map(|s| if s[0] > 0.0 { s[k] / s[0] } else { 0.0 }).collect::<Vec<_>>())
+            });
+            let at = |(&wavelength, i): (&f64, f64)| [i, i * q.value(wavelength), i * u.value(wavelength)];
+            wavelengths_nm.iter().zip(radiance).flat_map(at).collect()
+        })?;
+        Ok(rows.concat())
+    }
+
+    /// Gathers in each direction and takes what `result` makes of it.
+    fn gather_each<T: Send>(
+        &self,
+        field: &LightField,
+        directions: &[DVec3],
+        progress: &Progress,
+        result: impl Fn(&Gathered, &Look) -> T + Sync,
+    ) -> Result<Vec<T>> {
+        let observer = self.observer();
+        let sun = self.sun.direction();
         let parts = progress.parts("gather", directions.len());
-        let rows = directions
+        directions
             .par_iter()
             .map(|direction| {
                 let direction = direction.normalize();
-                let azimuth = horizontal_from_direction(direction).1 - self.sun.azimuth_deg;
-                let gathered = field.gather(&observer, direction.z.clamp(-1.0, 1.0), &[azimuth.to_radians()]);
-                let relative: Vec<f64> =
-                    (0..gathered.wavelengths).map(|w| radiance(&gathered, &phases, 0, w, direction.dot(sun))).collect();
+                let mu = direction.z.clamp(-1.0, 1.0);
+                // Counterclockwise from the Sun, against the compass.
+                let azimuth = (self.sun.azimuth_deg - horizontal_from_direction(direction).1).to_radians();
+                let look = Look { cosine: direction.dot(sun), transverse: transverse(mu, azimuth, observer.sun_zenith) };
+                let value = result(&field.gather(&observer, mu, &[azimuth]), &look);
                 parts.finish_one()?;
-                Ok(self.at_wavelengths(&relative, wavelengths_nm, &sunlight))
+                Ok(value)
             })
-            .collect::<Result<Vec<_>>>()?;
-        Ok(rows.concat())
+            .collect()
     }
 
     /// Spectral irradiance by the Sun and by the sky at `wavelengths_nm`.
@@ -127,7 +167,7 @@ impl Sky {
         let sunlight = self.sunlight(wavelengths_nm);
         let transmittance = self.disc_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
-        let diffuse = diffuse_horizontal(field, &self.phases(), &self.observer(), progress)?;
+        let diffuse = diffuse_horizontal(field, &self.observer(), progress)?;
         Ok(Irradiance {
             direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
             direct_normal,
@@ -145,7 +185,7 @@ impl Sky {
         let luminous = |values: &[f64]| LUMINOUS_EFFICACY * values.iter().zip(&weights).map(|(v, w)| v * w[1]).sum::<f64>();
         let direct_normal_lx = luminous(&self.disc_transmittance(field));
         let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
-        let diffuse_horizontal_lx = luminous(&diffuse_horizontal(field, &self.phases(), &self.observer(), progress)?);
+        let diffuse_horizontal_lx = luminous(&diffuse_horizontal(field, &self.observer(), progress)?);
         Ok(Illuminance {
             direct_normal_lx,
             direct_horizontal_lx,
@@ -169,12 +209,23 @@ impl Sky {
     /// # Errors
     /// As [`Self::illuminance`].
     pub fn light(&self, progress: &Progress) -> Result<SkyDome> {
+        self.filtered_light(None, progress)
+    }
+
+    /// The same, seen through a polarising filter.
+    ///
+    /// # Errors
+    /// As [`Self::light`]; [`Error::Input`] if there is a filter and the atmosphere was made without polarisation.
+    pub fn filtered_light(&self, filter: Option<&PolarisingFilter>, progress: &Progress) -> Result<SkyDome> {
+        if filter.is_some() && !self.atmosphere.is_polarised() {
+            return Err(Error::input("polarisation", "false", "true, to see the sky through a polarising filter"));
+        }
         let weights = self.xyz_weights()?;
         let field = self.field(progress)?;
         let (observer, horizon) = (self.observer(), self.horizon());
         let discs = self.sun_disc(field, horizon)?;
         let what =
-            Gathering { field, numbers: &self.atmosphere.quality().numbers(), phases: self.phases(), weights, observer, horizon };
+            Gathering { field, numbers: &self.atmosphere.quality().numbers(), filter: filter.copied(), weights, observer, horizon };
         SkyDome::gather(&what, (self.sun.altitude_deg.to_radians(), self.sun.azimuth_deg.to_radians()), discs, progress)
     }
 
@@ -195,10 +246,6 @@ impl Sky {
     fn horizon(&self) -> f64 {
         let radius = self.atmosphere.profile().planet_radius_km;
         -(radius / (radius + self.altitude_km())).acos()
-    }
-
-    fn phases(&self) -> Vec<Phase> {
-        self.atmosphere.profile().components.iter().filter_map(|component| component.phase.clone()).collect()
     }
 
     /// Square of 1 au over the Sun's distance.
@@ -270,6 +317,24 @@ impl Sky {
     }
 }
 
+fn check_directions(directions: &[DVec3]) -> Result<()> {
+    match directions.iter().find(|d| !(0.999..=1.001).contains(&d.length())) {
+        Some(bad) => {
+            let value = format!("[{}, {}, {}]", bad.x, bad.y, bad.z);
+            Err(Error::input("directions", value, "unit vectors (east, north, up)"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// A look direction relative to the Sun.
+struct Look {
+    /// Cosine of the angle between them.
+    cosine: f64,
+    /// Components of the direction to the Sun across the look direction.
+    transverse: [f64; 2],
+}
+
 /// Refraction in the air of a preset; a profile says nothing of refraction, so its air has none.
 fn refraction(atmosphere: &Atmosphere, elevation_m: f64) -> Refraction {
     let Some(air) = atmosphere.parameters().and_then(|parameters| parameters.resolve().ok()) else {
@@ -303,7 +368,7 @@ mod tests {
         let cosine = altitude.sin() * sun.sin() + altitude.cos() * sun.cos() * from_sun.cos();
         let mut xyz = [0.0; 3];
         for (w, weight) in sky.xyz_weights().unwrap().iter().enumerate() {
-            let value = radiance(&gathered, &sky.phases(), 0, w, cosine);
+            let value = field.radiance(&gathered, 0, w, cosine);
             for k in 0..3 {
                 xyz[k] += value * weight[k];
             }

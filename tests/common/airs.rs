@@ -49,7 +49,7 @@ impl Airs {
         }
         profile.validate().unwrap();
         let start = std::time::Instant::now();
-        let field = LightField::solve(&profile, &Quality::High.numbers(), &Progress::silent()).unwrap();
+        let field = LightField::solve(&profile, &Quality::High.numbers(), false, &Progress::silent()).unwrap();
         println!("{count} airs solved in {:.1} s", start.elapsed().as_secs_f64());
         Self { keys, profile, field }
     }
@@ -62,10 +62,7 @@ impl Airs {
         let azimuth = row["relative_azimuth_deg"].to_radians();
         let gathered = self.field.gather(&Observer { altitude_km, sun_zenith: sun }, mu, &[azimuth]);
         let cosine = mu * sun.cos() + sine * sun.sin() * azimuth.cos();
-        let scatterers = self.profile.components.iter().filter_map(|c| c.phase.as_ref());
-        let once: f64 =
-            scatterers.enumerate().map(|(c, phase)| phase.value(air, cosine) * f64::from(gathered.part(0, c)[air])).sum();
-        once + f64::from(gathered.part(0, gathered.components)[air])
+        self.field.radiance(&gathered, 0, air, cosine)
     }
 }
 

@@ -1,0 +1,94 @@
+//! A polarising filter between the sky and the picture.
+//!
+//! Through an ideal filter whose axis stands at the angle c from the vertical (clockwise as the observer sees it) comes (I + Q cos 2c + U sin 2c) / 2. The half that any filter takes
+//! is made up for, as a photographer's exposure does: what is left is I + strength (Q cos 2c + U sin 2c).
+
+use crate::error::{Result, check_range};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// A polarising filter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PolarisingFilter {
+    /// 0 (no filter) to 1 (ideal).
+    #[serde(default = "one")]
+    pub strength: f64,
+    /// Angle of the filter's axis from the vertical [degrees, clockwise as seen by the observer], -180 to 180.
+    #[serde(default)]
+    pub angle_deg: f64,
+    /// Altitude and azimuth [degrees] towards which the filter is held, one piece of glass for the whole picture. Without it the filter turns with the view: in
+    /// every direction its axis stands at the same angle from the vertical.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held_towards_deg: Option<[f64; 2]>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Default for PolarisingFilter {
+    fn default() -> Self {
+        Self { strength: 1.0, angle_deg: 0.0, held_towards_deg: None }
+    }
+}
+
+impl PolarisingFilter {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] that names the one out of range.
+    pub fn validate(&self) -> Result<()> {
+        check_range("polarising_filter.strength", self.strength, 0.0, 1.0, "")?;
+        check_range("polarising_filter.angle_deg", self.angle_deg, -180.0, 180.0, "degrees")?;
+        if let Some([altitude, azimuth]) = self.held_towards_deg {
+            check_range("polarising_filter.held_towards_deg altitude", altitude, -90.0, 90.0, "degrees")?;
+            check_range("polarising_filter.held_towards_deg azimuth", azimuth, -360.0, 360.0, "degrees")?;
+        }
+        Ok(())
+    }
+
+    /// What Q and U count in the direction of `altitude` and `azimuth` [radians, from north through east].
+    pub(super) fn weights(&self, altitude: f64, azimuth: f64) -> [f64; 2] {
+        let angle = self.angle_deg.to_radians();
+        let Some(towards) = self.held_towards_deg else {
+            return [self.strength * (2.0 * angle).cos(), self.strength * (2.0 * angle).sin()];
+        };
+        let [up, right] = up_and_right(towards[0].to_radians(), towards[1].to_radians());
+        let axis = angle.cos() * up + angle.sin() * right;
+        let [up, right] = up_and_right(altitude, azimuth);
+        let (a, b) = (axis.dot(up), axis.dot(right));
+        // Along its own axis the glass is seen edge on and has no direction: there it fades out.
+        let square = a * a + b * b;
+        let fade = self.strength / square.max(1e-6);
+        [fade * (a * a - b * b), fade * 2.0 * a * b]
+    }
+}
+
+/// Unit vectors upwards and to the right of an observer who looks towards `altitude`, `azimuth` [radians].
+fn up_and_right(altitude: f64, azimuth: f64) -> [DVec3; 2] {
+    let ((sine, cosine), (east, north)) = (altitude.sin_cos(), azimuth.sin_cos());
+    [DVec3::new(-sine * east, -sine * north, cosine), DVec3::new(north, -east, 0.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_filter_is_one_that_turns_where_it_is_held() {
+        let turning = PolarisingFilter { strength: 0.8, angle_deg: 30.0, held_towards_deg: None };
+        let held = PolarisingFilter { held_towards_deg: Some([40.0, 200.0]), ..turning };
+        let (a, b) = (turning.weights(0.3, 1.0), held.weights(40_f64.to_radians(), 200_f64.to_radians()));
+        assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12, "{a:?} {b:?}");
+        // Elsewhere its axis stands otherwise, with the same strength.
+        let c = held.weights(0.2, 1.0);
+        assert!((c[0].hypot(c[1]) - 0.8).abs() < 1e-12 && (c[0] - a[0]).abs() > 0.01);
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_named() {
+        let message = PolarisingFilter { strength: 1.5, ..Default::default() }.validate().unwrap_err().to_string();
+        assert!(message.starts_with("polarising_filter.strength = 1.5"), "{message}");
+    }
+}
