@@ -7,7 +7,8 @@ use std::process::{Command, Output, Stdio};
 const SUN: [&str; 4] = ["--sun-altitude", "30", "--sun-azimuth", "-20"];
 
 fn tool(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_skyprobe")).args(arguments).current_dir(folder).output().expect("the tool starts")
+    let mut command = Command::new(env!("CARGO_BIN_EXE_skyprobe"));
+    command.args(arguments).current_dir(folder).env("SKYPROBE_CACHE", "off").output().expect("the tool starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -173,4 +174,30 @@ fn an_interrupted_render_exits_with_130_and_leaves_nothing() {
         assert_eq!(code, Some(130), "{signal}");
         assert!(files(folder.path()).is_empty(), "{signal}: {:?}", files(folder.path()));
     }
+}
+
+#[test]
+fn solved_light_is_kept_where_the_environment_says_unless_it_is_switched_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = folder.path().join("cache");
+    let run = |more: &[&str], switch: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_skyprobe"));
+        command.args(["info", "--json"]).args(SUN).args(more).current_dir(folder.path());
+        let output = command.env("SKYPROBE_CACHE", switch).env("SKYPROBE_CACHE_DIR", &cache).output().unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let plain = run(&["--no-cache"], "");
+    run(&[], "off");
+    run(&["--quality", "draft"], "");
+    assert!(!cache.exists());
+    assert_eq!(run(&[], ""), plain);
+    assert_eq!(files(&cache).len(), 1);
+    assert_eq!(run(&[], ""), plain);
+    let kept = files(&cache);
+    // A folder that is a file is no reason to fail.
+    std::fs::remove_dir_all(&cache).unwrap();
+    std::fs::write(&cache, "").unwrap();
+    assert_eq!(run(&[], ""), plain);
+    assert_eq!(kept.len(), 1);
 }

@@ -133,6 +133,9 @@ class Atmosphere:
         "draft", "standard", "high" or "reference".
     polarisation
         Whether polarisation is followed; must be False in this version.
+    cache
+        Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see ``SKYPROBE_CACHE_DIR``; drafts
+        are not kept).
     """
 
     def __new__(
@@ -153,6 +156,7 @@ class Atmosphere:
         surface_pressure_hpa: float | None = None,
         quality: _Quality = "standard",
         polarisation: bool = False,
+        cache: bool = True,
     ) -> Atmosphere: ...
     @staticmethod
     def from_profile(
@@ -166,6 +170,7 @@ class Atmosphere:
         sun_angular_radius_deg: float = 0.2664,
         quality: _Quality = "standard",
         polarisation: bool = False,
+        cache: bool = True,
     ) -> Atmosphere:
         """An air given in full: another code's, or another planet's. Coefficients are linear between the altitudes.
 
@@ -189,6 +194,8 @@ class Atmosphere:
             "draft", "standard", "high" or "reference".
         polarisation
             Whether polarisation is followed; must be False in this version.
+        cache
+            As for ``Atmosphere``.
         """
 
     def solve(self, progress: _Progress | None = None) -> None:

@@ -160,7 +160,7 @@ pub fn run(options: &Options) -> Result<()> {
     if options.config.dump_config {
         return say(&config.to_json());
     }
-    let sky = config.sky(Arc::new(config.atmosphere()?))?;
+    let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
     if config.output.is_empty() {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }

@@ -167,7 +167,8 @@ impl Table {
         }
         let (basis, weights) = pick(&functions);
         let count = basis.len();
-        let entries = (0..ENTRIES).flat_map(|e| basis.iter().map(move |b| (e, b)).map(|(e, b)| (b[e] * scale[e]) as f32)).collect();
+        let entries =
+            (0..ENTRIES).flat_map(|e| basis.iter().map(move |b| (e, b)).map(|(e, b)| (b[e] * scale[e]) as f32)).collect();
         Self { entries, count, paths: Axis::new(PATHS.to_vec()), weights, growth }
     }
 }
@@ -268,7 +269,10 @@ mod tests {
                     expected += factor * (chain.value(0, cosine) - low);
                 }
                 let found = functions.value(0, path, cosine);
-                assert!((found - expected).abs() < 5e-3 * phase.value(0, cosine).max(expected.abs()), "{path} {degrees}: {found} {expected}");
+                assert!(
+                    (found - expected).abs() < 5e-3 * phase.value(0, cosine).max(expected.abs()),
+                    "{path} {degrees}: {found} {expected}"
+                );
             }
         }
     }

@@ -38,13 +38,7 @@ impl<const N: usize> Contracted<N> {
     pub fn new(grid: &Grid, shape: Shape) -> Self {
         let n = grid.zeniths.len();
         let stride = Self::stride(shape);
-        Self {
-            shape,
-            terms: vec![splat(0.0); n * stride],
-            log_magnitudes: vec![0.0; n],
-            azimuthal: 0,
-            stencils: Vec::new(),
-        }
+        Self { shape, terms: vec![splat(0.0); n * stride], log_magnitudes: vec![0.0; n], azimuthal: 0, stencils: Vec::new() }
     }
 
     fn stride(shape: Shape) -> usize {

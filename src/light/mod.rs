@@ -16,8 +16,8 @@
 #![allow(clippy::needless_range_loop)]
 
 mod air;
-mod angular;
 mod anderson;
+mod angular;
 mod axis;
 mod contracted;
 mod field;

@@ -96,7 +96,13 @@ pub fn solve(
     let stage = |from: f64, to: f64| Stage { progress, from, to };
     let once = {
         let finest = Rays::trace(grid, &air, numbers.zenith_nodes.map(|n| n * SUNLIT_DENSITY), limits);
-        operator.scatter_sunlight(&finest, shape, &many, &azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY), &stage(0.05, 0.3))?
+        operator.scatter_sunlight(
+            &finest,
+            shape,
+            &many,
+            &azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY),
+            &stage(0.05, 0.3),
+        )?
     };
     let once_low = once.truncated(LOW_ORDER);
     let mut field = once_low.clone();
@@ -134,7 +140,14 @@ fn stokes(shape: Shape) -> usize {
 
 impl Operator<'_> {
     /// The field of sunlight scattered once and of sunlight reflected by the ground.
-    fn scatter_sunlight(&self, rays: &Rays, shape: Shape, few: &[Azimuth], many: &[Azimuth], stage: &Stage) -> Result<Field<LANES>> {
+    fn scatter_sunlight(
+        &self,
+        rays: &Rays,
+        shape: Shape,
+        few: &[Azimuth],
+        many: &[Azimuth],
+        stage: &Stage,
+    ) -> Result<Field<LANES>> {
         let azimuths = Azimuths { few, many, interpolation: azimuth_interpolation(few, many) };
         self.collect(rays, shape, many, stage, |level, direction, radiance| {
             sunlit_radiance(self.grid, self.air, self.sunlight, &azimuths, stokes(shape), &rays.rays[level][direction], radiance);
@@ -142,7 +155,14 @@ impl Operator<'_> {
     }
 
     /// The field, as `shape` says, of the light of `field` scattered or reflected once more.
-    fn scatter(&self, rays: &Rays, field: &Field<LANES>, shape: Shape, azimuths: &[Azimuth], stage: &Stage) -> Result<Field<LANES>> {
+    fn scatter(
+        &self,
+        rays: &Rays,
+        field: &Field<LANES>,
+        shape: Shape,
+        azimuths: &[Azimuth],
+        stage: &Stage,
+    ) -> Result<Field<LANES>> {
         let source = Relative::new(field);
         self.collect(rays, shape, azimuths, stage, |level, direction, radiance| {
             scattered_radiance(self.grid, &source, self.air, azimuths, &rays.rays[level][direction], radiance);

@@ -98,11 +98,7 @@ mod tests {
 
     fn frame(mu: f64, p: f64) -> [DVec3; 3] {
         let s = (1.0 - mu * mu).sqrt();
-        [
-            DVec3::new(mu * p.cos(), mu * p.sin(), -s),
-            DVec3::new(-p.sin(), p.cos(), 0.0),
-            DVec3::new(s * p.cos(), s * p.sin(), mu),
-        ]
+        [DVec3::new(mu * p.cos(), mu * p.sin(), -s), DVec3::new(-p.sin(), p.cos(), 0.0), DVec3::new(s * p.cos(), s * p.sin(), mu)]
     }
 
     /// The source of a tensor, against P T P written out.

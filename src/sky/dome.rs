@@ -172,8 +172,7 @@ impl SkyLight for SkyDome {
         let circle = Circle::new(half, share.clamp(0.0, 1.0).sqrt(), azimuths.len() > WHOLE_CIRCLE);
         let mut factors = vec![[0.0_f32; CHUNK]; self.terms.count];
         for (azimuths, out) in azimuths.chunks(CHUNK).zip(out.chunks_mut(CHUNK)) {
-            let places =
-                Places { altitude, sun_altitude: self.sun_altitude, sun_azimuth: self.sun_azimuth, azimuths };
+            let places = Places { altitude, sun_altitude: self.sun_altitude, sun_azimuth: self.sun_azimuth, azimuths };
             shade(&circle, &self.terms, &places, &mut factors, out);
         }
     }
@@ -220,7 +219,13 @@ impl<'a> Circle<'a> {
     #[inline(always)]
     fn node(&self, node: isize, field: usize) -> [f32; 3] {
         let last = self.half.azimuths as isize - 1;
-        let inside = if node < 0 { -node } else if node > last { 2 * last - node } else { node };
+        let inside = if node < 0 {
+            -node
+        } else if node > last {
+            2 * last - node
+        } else {
+            node
+        };
         let sign = if inside != node && self.half.odd == Some(field) { -1.0 } else { 1.0 };
         let index = inside as usize * self.half.fields + field;
         let value = if let Some(value) = self.whole.get(index) {

@@ -36,11 +36,7 @@ const CIRCLES: usize = 32;
 const AZIMUTHS: usize = 60;
 
 /// Irradiance of the horizontal plane by the sky, per unit solar irradiance, by wavelength.
-pub(super) fn diffuse_horizontal(
-    field: &LightField,
-    observer: &Observer,
-    progress: &Progress,
-) -> Result<Vec<f64>> {
+pub(super) fn diffuse_horizontal(field: &LightField, observer: &Observer, progress: &Progress) -> Result<Vec<f64>> {
     let azimuths: Vec<f64> = (0..AZIMUTHS).map(|a| (a as f64 + 0.5) * PI / AZIMUTHS as f64).collect();
     let parts = progress.parts("gather", CIRCLES);
     let circles = gauss::legendre(CIRCLES)

@@ -1,6 +1,7 @@
 //! What is seen from a place at a time: the light of the sky, the Sun's disc, the ground.
 
 mod atmosphere;
+pub mod cache;
 mod disc;
 mod dome;
 mod filter;
@@ -8,6 +9,7 @@ mod irradiance;
 mod place_and_time;
 
 pub use atmosphere::Atmosphere;
+pub use cache::Cache;
 pub use disc::Disc;
 pub use dome::SkyDome;
 pub use filter::PolarisingFilter;

@@ -117,9 +117,8 @@ impl Sky {
         let sunlight = self.sunlight(wavelengths_nm);
         let nodes = &self.atmosphere.profile().wavelengths_nm;
         let rows: Vec<Vec<f64>> = self.gather_each(field, directions, progress, |gathered, look| {
-            let stokes: Vec<[f64; 3]> = (0..gathered.wavelengths)
-                .map(|w| field.stokes(gathered, 0, w, look.transverse, look.cosine))
-                .collect();
+            let stokes: Vec<[f64; 3]> =
+                (0..gathered.wavelengths).map(|w| field.stokes(gathered, 0, w, look.transverse, look.cosine)).collect();
             let radiance = self.at_wavelengths(&stokes.iter().map(|s| s[0]).collect::<Vec<_>>(), wavelengths_nm, &sunlight);
             // The degree of polarisation is what is smooth over wavelength and may be negative.
             let [q, u] = [1, 2].map(|k| {
@@ -224,8 +223,14 @@ impl Sky {
         let field = self.field(progress)?;
         let (observer, horizon) = (self.observer(), self.horizon());
         let discs = self.sun_disc(field, horizon)?;
-        let what =
-            Gathering { field, numbers: &self.atmosphere.quality().numbers(), filter: filter.copied(), weights, observer, horizon };
+        let what = Gathering {
+            field,
+            numbers: &self.atmosphere.quality().numbers(),
+            filter: filter.copied(),
+            weights,
+            observer,
+            horizon,
+        };
         SkyDome::gather(&what, (self.sun.altitude_deg.to_radians(), self.sun.azimuth_deg.to_radians()), discs, progress)
     }
 
