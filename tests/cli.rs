@@ -201,3 +201,25 @@ fn solved_light_is_kept_where_the_environment_says_unless_it_is_switched_off() {
     assert_eq!(run(&[], ""), plain);
     assert_eq!(kept.len(), 1);
 }
+
+#[test]
+fn the_analytic_sky_is_rendered_by_day_and_refused_by_night() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = |more: &[&str]| tool(folder.path(), &[&["render", "--model", "preetham", "--width", "64"], more].concat());
+    let made = render(&[&SUN[..], &["--turbidity", "3", "-o", "sky.exr"]].concat());
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    let found = skyprobe::io::exr::read(folder.path().join("sky.exr")).unwrap();
+    assert!(found.attributes["skyprobe.config"].contains(r#""model":"preetham""#));
+    for (arguments, part) in [
+        (vec!["--sun-altitude", "-3", "--sun-azimuth", "0"], "model = preetham with the Sun at -3.000 degrees: must be"),
+        (
+            vec!["--sun-altitude", "30", "--sun-azimuth", "0", "--turbidity", "20"],
+            "turbidity = 20: must be a number from 2 to 10",
+        ),
+    ] {
+        let refused = render(&[&arguments[..], &["-o", "no.exr"]].concat());
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(text(&refused.stderr).contains(part), "{}", text(&refused.stderr));
+    }
+    assert_eq!(files(folder.path()), ["sky.exr"]);
+}

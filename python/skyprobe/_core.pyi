@@ -24,6 +24,7 @@ _Aerosol: TypeAlias = Literal[
 _Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
+_Model: TypeAlias = Literal["scattering", "preetham"]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -364,6 +365,9 @@ class Sky:
         IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
     sun_model
         By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+    model
+        By which model the sky is rendered: "scattering" (solved light: day, twilight, night) or "preetham" (the analytic sky of 1999, by day at
+        turbidities from 2 to 10). Spectra, irradiance and illuminance are those of "scattering".
     """
 
     def __new__(
@@ -376,9 +380,17 @@ class Sky:
         elevation_m: float = 0.0,
         zone: str | None = None,
         sun_model: Literal["iau", "thesis"] = "iau",
+        model: _Model = "scattering",
     ) -> Sky: ...
     @staticmethod
-    def with_sun(*, altitude_deg: float, azimuth_deg: float, atmosphere: Atmosphere, elevation_m: float = 0.0) -> Sky:
+    def with_sun(
+        *,
+        altitude_deg: float,
+        azimuth_deg: float,
+        atmosphere: Atmosphere,
+        elevation_m: float = 0.0,
+        model: _Model = "scattering",
+    ) -> Sky:
         """The sky under a Sun that is put, without place and time.
 
         Parameters
@@ -391,6 +403,8 @@ class Sky:
             The air.
         elevation_m
             Height of the observer above the sea, -500 to 60000. [m]
+        model
+            As for ``Sky``.
         """
 
     @property
@@ -400,6 +414,10 @@ class Sky:
     @property
     def longitude(self) -> float | None:
         """Longitude of the place. [degrees]"""
+
+    @property
+    def model(self) -> _Model:
+        """By which model the sky is rendered."""
 
     @property
     def elevation_m(self) -> float:

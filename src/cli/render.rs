@@ -42,6 +42,10 @@ pub struct Options {
     air: AirOptions,
     #[command(flatten)]
     image: ImageOptions,
+    /// By which model the sky is rendered: scattering (solved light: day, twilight, night) or preetham (the analytic sky of 1999, by day at
+    /// turbidities from 2 to 10). Default: scattering.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    model: Option<String>,
     /// File to write: .exr (float, ZIP), .hdr (Radiance RGBE) or .png (tone mapped, to look at). May be given several times.
     #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
@@ -145,6 +149,9 @@ impl Options {
             }
             config.output.push(preview.clone());
         }
+        if let Some(name) = &self.model {
+            config.model = name.parse()?;
+        }
         if let Some(name) = &self.half {
             config.file.half = name.parse()?;
         }
@@ -166,8 +173,8 @@ pub fn run(options: &Options) -> Result<()> {
     }
     config.output.iter().try_for_each(|path| check_target(path))?;
     terminal::with_progress(|progress| {
-        let metadata = describe(&sky, config.sun_model, &config.probe);
-        render_to_files(&sky.light(progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
+        let metadata = describe(&sky, (config.sun_model, config.model), &config.probe);
+        render_to_files(&*sky.light_by(config.model, progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
     })?;
     let (width, height, sun) = (config.probe.width, config.probe.height(), sky.sun());
     let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);

@@ -6,7 +6,9 @@ mod disc;
 mod dome;
 mod filter;
 mod irradiance;
+mod model;
 mod place_and_time;
+pub mod preetham;
 
 pub use atmosphere::Atmosphere;
 pub use cache::Cache;
@@ -14,7 +16,9 @@ pub use disc::Disc;
 pub use dome::SkyDome;
 pub use filter::PolarisingFilter;
 pub use irradiance::{Illuminance, Irradiance};
+pub use model::Model;
 pub use place_and_time::Sky;
+pub use preetham::Preetham;
 
 /// The light around an observer as a probe needs it: a smooth part that can be asked for in any direction, and discs
 /// so small and bright that they must be drawn with their exact energy.
