@@ -24,7 +24,7 @@ _Aerosol: TypeAlias = Literal[
 _Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
-_Model: TypeAlias = Literal["scattering", "preetham"]
+_Model: TypeAlias = Literal["scattering", "preetham", "thesis", "thesis_single"]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -366,8 +366,9 @@ class Sky:
     sun_model
         By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
     model
-        By which model the sky is rendered: "scattering" (solved light: day, twilight, night) or "preetham" (the analytic sky of 1999, by day at
-        turbidities from 2 to 10). Spectra, irradiance and illuminance are those of "scattering".
+        By which model the sky is rendered: "scattering" (solved light: day, twilight, night) "preetham" (the analytic sky of 1999, by day at
+        turbidities from 2 to 10), "thesis" or "thesis_single" (ray marching with random steps, light scattered at most twice or once:
+        noisy, for small images). Spectra, irradiance and illuminance are those of "scattering".
     """
 
     def __new__(

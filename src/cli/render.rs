@@ -42,8 +42,9 @@ pub struct Options {
     air: AirOptions,
     #[command(flatten)]
     image: ImageOptions,
-    /// By which model the sky is rendered: scattering (solved light: day, twilight, night) or preetham (the analytic sky of 1999, by day at
-    /// turbidities from 2 to 10). Default: scattering.
+    /// By which model the sky is rendered: scattering (solved light: day, twilight, night) preetham (the analytic sky of 1999, by day at
+    /// turbidities from 2 to 10), thesis or thesis_single (ray marching with random steps, light scattered at most twice or once: noisy, for small
+    /// images). Default: scattering.
     #[arg(long, value_name = "NAME", help_heading = IMAGE)]
     model: Option<String>,
     /// File to write: .exr (float, ZIP), .hdr (Radiance RGBE) or .png (tone mapped, to look at). May be given several times.

@@ -18,7 +18,7 @@
 //! straight (no refraction); the Sun is a uniform disc, partly hidden by the planet at the terminator.
 
 mod disc;
-mod sampling;
+pub(super) mod sampling;
 mod shells;
 
 use crate::atmosphere::{OpticalProfile, Phase};

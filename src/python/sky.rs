@@ -41,8 +41,9 @@ const UNIT_TOLERANCE: f64 = 1e-4;
 /// sun_model
 ///     By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
 /// model
-///     By which model the sky is rendered: "scattering" (solved light: day, twilight, night) or "preetham" (the analytic sky of 1999, by day at
-///     turbidities from 2 to 10). Spectra, irradiance and illuminance are those of "scattering".
+///     By which model the sky is rendered: "scattering" (solved light: day, twilight, night) "preetham" (the analytic sky of 1999, by day at
+///     turbidities from 2 to 10), "thesis" or "thesis_single" (ray marching with random steps, light scattered at most twice or once:
+///     noisy, for small images). Spectra, irradiance and illuminance are those of "scattering".
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Sky {
     inner: Arc<sky::Sky>,

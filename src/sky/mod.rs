@@ -9,6 +9,7 @@ mod irradiance;
 mod model;
 mod place_and_time;
 pub mod preetham;
+mod thesis;
 
 pub use atmosphere::Atmosphere;
 pub use cache::Cache;
@@ -19,6 +20,7 @@ pub use irradiance::{Illuminance, Irradiance};
 pub use model::Model;
 pub use place_and_time::Sky;
 pub use preetham::Preetham;
+pub use thesis::ThesisSky;
 
 /// The light around an observer as a probe needs it: a smooth part that can be asked for in any direction, and discs
 /// so small and bright that they must be drawn with their exact energy.
