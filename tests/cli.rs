@@ -7,7 +7,8 @@ use std::process::{Command, Output, Stdio};
 const SUN: [&str; 4] = ["--sun-altitude", "30", "--sun-azimuth", "-20"];
 
 fn tool(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_skyprobe")).args(arguments).current_dir(folder).output().expect("the tool starts")
+    let mut command = Command::new(env!("CARGO_BIN_EXE_skyprobe"));
+    command.args(arguments).current_dir(folder).env("SKYPROBE_CACHE", "off").output().expect("the tool starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -173,4 +174,52 @@ fn an_interrupted_render_exits_with_130_and_leaves_nothing() {
         assert_eq!(code, Some(130), "{signal}");
         assert!(files(folder.path()).is_empty(), "{signal}: {:?}", files(folder.path()));
     }
+}
+
+#[test]
+fn solved_light_is_kept_where_the_environment_says_unless_it_is_switched_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = folder.path().join("cache");
+    let run = |more: &[&str], switch: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_skyprobe"));
+        command.args(["info", "--json"]).args(SUN).args(more).current_dir(folder.path());
+        let output = command.env("SKYPROBE_CACHE", switch).env("SKYPROBE_CACHE_DIR", &cache).output().unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let plain = run(&["--no-cache"], "");
+    run(&[], "off");
+    run(&["--quality", "draft"], "");
+    assert!(!cache.exists());
+    assert_eq!(run(&[], ""), plain);
+    assert_eq!(files(&cache).len(), 1);
+    assert_eq!(run(&[], ""), plain);
+    let kept = files(&cache);
+    // A folder that is a file is no reason to fail.
+    std::fs::remove_dir_all(&cache).unwrap();
+    std::fs::write(&cache, "").unwrap();
+    assert_eq!(run(&[], ""), plain);
+    assert_eq!(kept.len(), 1);
+}
+
+#[test]
+fn the_analytic_sky_is_rendered_by_day_and_refused_by_night() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = |more: &[&str]| tool(folder.path(), &[&["render", "--model", "preetham", "--width", "64"], more].concat());
+    let made = render(&[&SUN[..], &["--turbidity", "3", "-o", "sky.exr"]].concat());
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    let found = skyprobe::io::exr::read(folder.path().join("sky.exr")).unwrap();
+    assert!(found.attributes["skyprobe.config"].contains(r#""model":"preetham""#));
+    for (arguments, part) in [
+        (vec!["--sun-altitude", "-3", "--sun-azimuth", "0"], "model = preetham with the Sun at -3.000 degrees: must be"),
+        (
+            vec!["--sun-altitude", "30", "--sun-azimuth", "0", "--turbidity", "20"],
+            "turbidity = 20: must be a number from 2 to 10",
+        ),
+    ] {
+        let refused = render(&[&arguments[..], &["-o", "no.exr"]].concat());
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(text(&refused.stderr).contains(part), "{}", text(&refused.stderr));
+    }
+    assert_eq!(files(folder.path()), ["sky.exr"]);
 }

@@ -21,6 +21,11 @@ Conventions
 - Long work releases the interpreter. ``progress(stage, fraction)`` is called on the thread that asked for the work; returning
   ``False`` from it raises :class:`Cancelled`.
 
+Cache
+-----
+Solved light is kept on disk and used again, in the folder that the environment variable ``SKYPROBE_CACHE_DIR`` names or ``skyprobe`` in the
+system's place for caches, 1 GB at most. ``SKYPROBE_CACHE=off`` or ``Atmosphere(cache=False)`` switches that off.
+
 Errors
 ------
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a

@@ -31,6 +31,7 @@ _PhaseFunction: TypeAlias = Literal["mie", "henyey_greenstein", "cornette_shanks
 _Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
+_Model: TypeAlias = Literal["scattering", "preetham", "thesis", "thesis_single"]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -164,6 +165,9 @@ class Atmosphere:
         "draft", "standard", "high" or "reference".
     polarisation
         Whether polarisation is followed; must be False in this version.
+    cache
+        Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see ``SKYPROBE_CACHE_DIR``; drafts
+        are not kept).
     """
 
     def __new__(
@@ -188,6 +192,7 @@ class Atmosphere:
         surface_pressure_hpa: float | None = None,
         quality: _Quality = "standard",
         polarisation: bool = False,
+        cache: bool = True,
     ) -> Atmosphere: ...
     @staticmethod
     def from_profile(
@@ -201,6 +206,7 @@ class Atmosphere:
         sun_angular_radius_deg: float = 0.2664,
         quality: _Quality = "standard",
         polarisation: bool = False,
+        cache: bool = True,
     ) -> Atmosphere:
         """An air given in full: another code's, or another planet's. Coefficients are linear between the altitudes.
 
@@ -224,6 +230,8 @@ class Atmosphere:
             "draft", "standard", "high" or "reference".
         polarisation
             Whether polarisation is followed; must be False in this version.
+        cache
+            As for ``Atmosphere``.
         """
 
     def solve(self, progress: _Progress | None = None) -> None:
@@ -392,6 +400,10 @@ class Sky:
         IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
     sun_model
         By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+    model
+        By which model the sky is rendered: "scattering" (solved light: day, twilight, night) "preetham" (the analytic sky of 1999, by day at
+        turbidities from 2 to 10), "thesis" or "thesis_single" (ray marching with random steps, light scattered at most twice or once:
+        noisy, for small images). Spectra, irradiance and illuminance are those of "scattering".
     """
 
     def __new__(
@@ -404,9 +416,17 @@ class Sky:
         elevation_m: float = 0.0,
         zone: str | None = None,
         sun_model: Literal["iau", "thesis"] = "iau",
+        model: _Model = "scattering",
     ) -> Sky: ...
     @staticmethod
-    def with_sun(*, altitude_deg: float, azimuth_deg: float, atmosphere: Atmosphere, elevation_m: float = 0.0) -> Sky:
+    def with_sun(
+        *,
+        altitude_deg: float,
+        azimuth_deg: float,
+        atmosphere: Atmosphere,
+        elevation_m: float = 0.0,
+        model: _Model = "scattering",
+    ) -> Sky:
         """The sky under a Sun that is put, without place and time.
 
         Parameters
@@ -419,6 +439,8 @@ class Sky:
             The air.
         elevation_m
             Height of the observer above the sea, -500 to 60000. [m]
+        model
+            As for ``Sky``.
         """
 
     @property
@@ -428,6 +450,10 @@ class Sky:
     @property
     def longitude(self) -> float | None:
         """Longitude of the place. [degrees]"""
+
+    @property
+    def model(self) -> _Model:
+        """By which model the sky is rendered."""
 
     @property
     def elevation_m(self) -> float:
@@ -532,6 +558,38 @@ class Sky:
             "keep" them.
         progress
             Called with stage and fraction; returning False raises Cancelled.
+        """
+
+    def render_to_file(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        width: int = 2048,
+        projection: Literal["latlong", "fisheye"] = "latlong",
+        rows: Literal["centre", "corner"] = "centre",
+        extent: Literal["full", "upper"] = "full",
+        ground: Literal["on", "off", "mirrored"] = "on",
+        sun_disc: bool = True,
+        scale: _Scale = "blender",
+        color_space: _ColorSpace = "lin_rec709",
+        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        half: bool | Literal["off", "refuse", "scale"] | None = None,
+        exposure_stops: float = 0.0,
+        progress: _Progress | None = None,
+    ) -> None:
+        """Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
+        as a whole (but for a PNG).
+
+        Parameters
+        ----------
+        path
+            Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
+        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut
+            As for ``render``.
+        half, exposure_stops
+            As for ``Probe.save``.
+        progress
+            Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
         """
 
 @final

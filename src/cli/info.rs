@@ -51,7 +51,7 @@ pub fn run(options: &Options) -> Result<()> {
     if options.config.dump_config {
         return say(&config.to_json());
     }
-    let sky = config.sky(Arc::new(config.atmosphere()?))?;
+    let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
     let events = match (sky.place(), sky.time()) {
         (Some(place), Some(time)) => Some(sun_events(place, time)?),
         _ => None,

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::io::Config;
+use crate::sky::{Atmosphere, Cache};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -19,9 +20,19 @@ pub struct ConfigOptions {
     /// Print the whole configuration as JSON, with every default written out, and stop.
     #[arg(long, help_heading = CONFIGURATION)]
     pub dump_config: bool,
+    /// Neither use light that was solved earlier nor keep what is solved now.
+    ///
+    /// It is kept in the folder SKYPROBE_CACHE_DIR, or skyprobe in the system's place for caches (1 GB at most); the environment SKYPROBE_CACHE=off switches that off, too.
+    #[arg(long, help_heading = CONFIGURATION)]
+    no_cache: bool,
 }
 
 impl ConfigOptions {
+    /// The air of `config`.
+    pub fn atmosphere(&self, config: &Config) -> Result<Atmosphere> {
+        Ok(config.atmosphere()?.with_cache(if self.no_cache { None } else { Cache::of_user() }))
+    }
+
     /// The configuration of the file, or the defaults.
     pub fn read(&self) -> Result<Config> {
         self.config.as_deref().map_or_else(|| Ok(Config::default()), Config::read)

@@ -4,8 +4,8 @@ use super::air_options::AirOptions;
 use super::options::{ConfigOptions, PlaceOptions};
 use super::{say, terminal};
 use crate::error::{Error, Result, check_range};
-use crate::io::{Config, check_output, describe, json, save};
-use crate::probe::{self, MAX_WIDTH, MIN_WIDTH};
+use crate::io::{Config, check_output, describe, json, render_to_files};
+use crate::probe::{MAX_WIDTH, MIN_WIDTH};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -42,6 +42,11 @@ pub struct Options {
     air: AirOptions,
     #[command(flatten)]
     image: ImageOptions,
+    /// By which model the sky is rendered: scattering (solved light: day, twilight, night) preetham (the analytic sky of 1999, by day at
+    /// turbidities from 2 to 10), thesis or thesis_single (ray marching with random steps, light scattered at most twice or once: noisy, for small
+    /// images). Default: scattering.
+    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
+    model: Option<String>,
     /// File to write: .exr (float, ZIP), .hdr (Radiance RGBE) or .png (tone mapped, to look at). May be given several times.
     #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
@@ -145,6 +150,9 @@ impl Options {
             }
             config.output.push(preview.clone());
         }
+        if let Some(name) = &self.model {
+            config.model = name.parse()?;
+        }
         if let Some(name) = &self.half {
             config.file.half = name.parse()?;
         }
@@ -160,21 +168,16 @@ pub fn run(options: &Options) -> Result<()> {
     if options.config.dump_config {
         return say(&config.to_json());
     }
-    let sky = config.sky(Arc::new(config.atmosphere()?))?;
+    let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
     if config.output.is_empty() {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
     config.output.iter().try_for_each(|path| check_target(path))?;
-    let probe = terminal::with_progress(|progress| {
-        let probe = probe::render(&sky.light(progress)?, &config.probe, progress)?;
-        let metadata = describe(&sky, config.sun_model, &config.probe);
-        for (index, path) in config.output.iter().enumerate() {
-            progress.report("write", index as f64 / config.output.len() as f64)?;
-            save(path, &probe, &config.file, &metadata)?;
-        }
-        Ok(probe)
+    terminal::with_progress(|progress| {
+        let metadata = describe(&sky, (config.sun_model, config.model), &config.probe);
+        render_to_files(&*sky.light_by(config.model, progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
     })?;
-    let (width, height, sun) = (probe.width, probe.height, sky.sun());
+    let (width, height, sun) = (config.probe.width, config.probe.height(), sky.sun());
     let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);
     config.output.iter().try_for_each(|path| say(&format!("{}: {width} x {height}, {sun}", path.display())))
 }

@@ -18,12 +18,46 @@ pub fn check_writable(path: &Path) -> Result<()> {
 /// # Errors
 /// [`Error::File`] if the file cannot be written, and whatever `write` returns.
 pub fn write_atomically(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<()>) -> Result<()> {
-    let (target, temporary) = temporary(path)?;
-    let mut buffer = BufWriter::with_capacity(1 << 20, temporary.reopen().map_err(|error| Error::file(path, error))?);
+    let pending = Pending::new(path)?;
+    let mut buffer = BufWriter::with_capacity(1 << 20, pending.open()?);
     write(&mut buffer)?;
     buffer.flush().map_err(|error| Error::file(path, error))?;
-    temporary.persist(target).map_err(|error| Error::file(path, error.error))?;
-    Ok(())
+    pending.commit()
+}
+
+/// A file that is being written under another name beside its target; it vanishes unless it is committed.
+pub(crate) struct Pending {
+    path: PathBuf,
+    target: PathBuf,
+    temporary: tempfile::NamedTempFile,
+}
+
+impl Pending {
+    /// An empty file that may become `path`.
+    ///
+    /// # Errors
+    /// [`Error::File`] if nothing can be written there.
+    pub fn new(path: &Path) -> Result<Self> {
+        let (target, temporary) = temporary(path)?;
+        Ok(Self { path: path.to_path_buf(), target, temporary })
+    }
+
+    /// The file, to write to.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn open(&self) -> Result<File> {
+        self.temporary.reopen().map_err(|error| Error::file(&self.path, error))
+    }
+
+    /// Gives the file its name, in place of what had it.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn commit(self) -> Result<()> {
+        self.temporary.persist(self.target).map_err(|error| Error::file(&self.path, error.error))?;
+        Ok(())
+    }
 }
 
 /// The file that a name stands for (behind a symbolic link), and an empty file beside it that vanishes unless it is kept.

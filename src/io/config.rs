@@ -17,7 +17,7 @@ use crate::ephemeris::{Place, SunModel};
 use crate::error::{Error, Result, check_range};
 use crate::probe::ProbeSettings;
 use crate::quality::Quality;
-use crate::sky::{Atmosphere, Sky};
+use crate::sky::{Atmosphere, Model, Sky};
 use crate::time::{Time, ZoneChoice};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -41,6 +41,8 @@ pub struct Config {
     pub sun: Option<SunPosition>,
     /// By which theory the Sun's position is computed.
     pub sun_model: SunModel,
+    /// By which model the sky is rendered.
+    pub model: Model,
     /// The state of the air.
     pub atmosphere: AtmosphereConfig,
     /// The image.
@@ -83,6 +85,7 @@ struct Document {
     zone: Option<String>,
     sun: Option<Value>,
     sun_model: SunModel,
+    model: Model,
     atmosphere: Option<Value>,
     probe: Option<Value>,
     file: Option<Value>,
@@ -125,6 +128,7 @@ impl Config {
             zone: document.zone,
             sun: document.sun.map(|sun| json::read("sun", &sun)).transpose()?,
             sun_model: document.sun_model,
+            model: document.model,
             atmosphere: document
                 .atmosphere
                 .map(|air| AtmosphereConfig::from_value("atmosphere", &air))
@@ -158,6 +162,7 @@ impl Config {
         put("zone", value_of(&self.zone));
         put("sun", value_of(&self.sun));
         put("sun_model", value_of(&self.sun_model));
+        put("model", value_of(&self.model));
         put("atmosphere", self.atmosphere.to_value());
         put("probe", value_of(&self.probe));
         put("file", value_of(&self.file));

@@ -6,19 +6,24 @@
 //!
 //! `envmap` is never written: its `latlong` puts the first and last columns both on the seam and the poles on the first and
 //! last rows, with other axes; none of our layouts has columns there, and a reader that believed it would turn the sky.
+//!
+//! Files are written by this module itself (`header`, `blocks`), because attributes in a fixed order make equal probes equal files, and blocks
+//! that stand alone can be packed while the next rows are still being rendered. They are read by the crate `exr`.
 
-use super::metadata::Metadata;
-use super::{Half, own_fields};
+mod blocks;
+mod header;
+
+pub(super) use blocks::Packing;
+pub(super) use header::header;
+
+use super::Half;
 use crate::error::{Error, Result};
-use crate::probe::{Probe, Projection};
-use crate::spectrum::ColorSpace;
-use ::exr::meta::attribute::{AttributeValue, Chromaticities, Text};
-use ::exr::prelude::{
-    Blocks, Compression, Encoding, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes, LineOrder, ReadChannels,
-    ReadLayers, SpecificChannels, Vec2, WritableImage, f16,
-};
+use crate::probe::Probe;
+use ::exr::meta::attribute::{AttributeValue, Text};
+use ::exr::prelude::{ReadChannels, ReadLayers, Vec2};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::io::{BufReader, Seek, Write};
+use std::io::BufReader;
 use std::path::Path;
 
 /// Greatest finite half float.
@@ -26,7 +31,10 @@ pub const HALF_MAX: f32 = 65504.0;
 
 /// The power of two that brings all pixels of `probe` within half floats: 1 if they are.
 pub fn half_scale(probe: &Probe) -> f32 {
-    let (largest, _) = largest(probe);
+    scale_of(Largest::of(0, &probe.pixels).value)
+}
+
+fn scale_of(largest: f32) -> f32 {
     let mut scale = 1.0;
     while largest * scale > HALF_MAX {
         scale *= 0.5;
@@ -34,109 +42,49 @@ pub fn half_scale(probe: &Probe) -> f32 {
     scale
 }
 
-fn largest(probe: &Probe) -> (f32, usize) {
-    probe.pixels.iter().enumerate().fold((0.0, 0), |best, (k, value)| if value.abs() > best.0 { (value.abs(), k) } else { best })
+/// The value of greatest magnitude in a picture, and where it is; of equal ones the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Largest {
+    value: f32,
+    index: usize,
 }
 
-/// Writes `probe`; `path` is only for messages.
+impl Largest {
+    /// Of `values`, the first of which has the index `first` in the picture.
+    pub fn of(first: usize, values: &[f32]) -> Self {
+        const BLOCK: usize = 1 << 14;
+        let in_block = |(block, values): (usize, &[f32])| {
+            let value = values.iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
+            let index = values.iter().position(|found| found.abs() == value).unwrap_or(0);
+            Self { value, index: first + block * BLOCK + index }
+        };
+        values.par_chunks(BLOCK).enumerate().map(in_block).reduce(Self::default, Self::or)
+    }
+
+    /// The larger of two.
+    pub fn or(self, other: Self) -> Self {
+        let better = other.value > self.value || (other.value == self.value && other.index < self.index);
+        if better { other } else { self }
+    }
+}
+
+/// The factor on the pixels of a picture of `width` whose largest value is `largest`.
 ///
 /// # Errors
-/// [`Error::Input`] if half floats were asked for that cannot hold a pixel, [`Error::File`].
-pub(super) fn write(out: &mut (impl Write + Seek), path: &Path, probe: &Probe, half: Half, metadata: &Metadata) -> Result<()> {
-    let scale = match half {
-        Half::Off => 1.0,
-        Half::Scale => half_scale(probe),
-        Half::Refuse => {
-            let (value, k) = largest(probe);
-            if value > HALF_MAX {
-                let pixel = k / 3;
-                let what = format!("{value} in the pixel at column {}, row {}", pixel % probe.width, pixel / probe.width);
-                return Err(Error::input(
-                    "half",
-                    what,
-                    "at most 65504: write float32, leave the Sun's disc out, or choose half = scale",
-                ));
-            }
-            1.0
+/// [`Error::Input`] if half floats were asked for that cannot hold it.
+pub(super) fn pixel_scale(half: Half, largest: Largest, width: usize) -> Result<f32> {
+    match half {
+        Half::Scale => Ok(scale_of(largest.value)),
+        Half::Refuse if largest.value > HALF_MAX => {
+            let pixel = largest.index / 3;
+            Err(Error::input(
+                "half",
+                format!("{} in the pixel at column {}, row {}", largest.value, pixel % width, pixel / width),
+                "at most 65504: write float32, leave the Sun's disc out, or choose half = scale",
+            ))
         }
-    };
-    let attributes = layer_attributes(probe, metadata, scale);
-    let (width, pixels) = (probe.width, &probe.pixels);
-    let at = |position: Vec2<usize>| {
-        let k = 3 * (position.y() * width + position.x());
-        (scale * pixels[k], scale * pixels[k + 1], scale * pixels[k + 2])
-    };
-    let size = Vec2(probe.width, probe.height);
-    // Rows rather than tiles: what every reader knows.
-    let encoding = Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-    let failed = |error: ::exr::error::Error| Error::file(path, error);
-    if half == Half::Off {
-        let layer = Layer::new(size, attributes, encoding, SpecificChannels::rgb(at));
-        Image { attributes: image_attributes(probe), layer_data: layer }.write().to_buffered(out).map_err(failed)
-    } else {
-        let at = |position: Vec2<usize>| {
-            let (red, green, blue) = at(position);
-            (f16::from_f32(red), f16::from_f32(green), f16::from_f32(blue))
-        };
-        let layer = Layer::new(size, attributes, encoding, SpecificChannels::rgb(at));
-        Image { attributes: image_attributes(probe), layer_data: layer }.write().to_buffered(out).map_err(failed)
+        Half::Off | Half::Refuse => Ok(1.0),
     }
-}
-
-fn image_attributes(probe: &Probe) -> ImageAttributes {
-    let point = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
-    let found = probe.settings.color_space.chromaticities();
-    let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions(Vec2(probe.width, probe.height)));
-    attributes.chromaticities = Some(Chromaticities {
-        red: point(found.red),
-        green: point(found.green),
-        blue: point(found.blue),
-        white: point(found.white),
-    });
-    attributes
-}
-
-fn layer_attributes(probe: &Probe, metadata: &Metadata, scale: f32) -> LayerAttributes {
-    let settings = &probe.settings;
-    let wrap = match settings.projection {
-        Projection::LatLong => "periodic,clamp",
-        Projection::Fisheye => "black",
-    };
-    let mut comments = metadata.comments.clone();
-    if scale != 1.0 {
-        let warning = format!("The pixels are multiplied by {scale} to fit half floats: divide by it for true values.");
-        comments = Some(comments.map_or(warning.clone(), |text| format!("{warning}\n{text}")));
-    }
-    let mut attributes = LayerAttributes {
-        white_luminance: Some((settings.scale.white_luminance() / f64::from(scale)) as f32),
-        latitude: metadata.latitude_deg.map(|value| value as f32),
-        longitude: metadata.longitude_deg.map(|value| value as f32),
-        altitude: metadata.elevation_m.map(|value| value as f32),
-        capture_date: metadata.capture_date.as_deref().map(text),
-        // OpenEXR: UTC = local time + utcOffset.
-        utc_offset: metadata.utc_offset_s.map(|value| -value as f32),
-        wrap_mode_name: Some(text(wrap)),
-        comments: comments.as_deref().map(text),
-        software_name: Some(text(concat!("skyprobe ", env!("CARGO_PKG_VERSION")))),
-        ..LayerAttributes::default()
-    };
-    if settings.color_space != ColorSpace::Xyz {
-        let id = AttributeValue::Text(text(settings.color_space.interop_id()));
-        attributes.other.insert(text("colorInteropID"), id);
-    }
-    for (name, value) in own_fields(probe, metadata) {
-        attributes.other.insert(text(&name), AttributeValue::Text(text(&value)));
-    }
-    if scale != 1.0 {
-        attributes.other.insert(text("skyprobe.pixel_scale"), AttributeValue::F32(scale));
-    }
-    attributes
-}
-
-/// The UTF-8 bytes of `value`, whatever its characters (the crate's own conversion takes Latin-1 only).
-fn text(value: &str) -> Text {
-    let bytes: String = value.bytes().map(char::from).collect();
-    Text::new_or_none(bytes).unwrap_or_default()
 }
 
 fn string(value: &Text) -> String {
@@ -212,10 +160,11 @@ pub fn read(path: impl AsRef<Path>) -> Result<Picture> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FileOptions, save, tests::gradient};
+    use super::super::{FileOptions, Metadata, save, tests::gradient};
     use super::*;
     use crate::probe::{ProbeSettings, Rows};
     use crate::units::Scale;
+    use ::exr::prelude::Compression;
 
     fn options(half: Half) -> FileOptions {
         FileOptions { half, ..Default::default() }

@@ -6,12 +6,10 @@
 //! Rows are run-length encoded one component after the other.
 
 use super::metadata::Metadata;
-use crate::error::{Error, Result};
-use crate::probe::Probe;
+use crate::probe::ProbeSettings;
 use crate::spectrum::ColorSpace;
+use rayon::prelude::*;
 use std::fmt::Write as _;
-use std::io::Write;
-use std::path::Path;
 
 /// The bytes of a linear colour.
 ///
@@ -43,29 +41,19 @@ pub fn decode([red, green, blue, exponent]: [u8; 4]) -> [f32; 3] {
     [red, green, blue].map(|byte| (f64::from(byte) * scale) as f32)
 }
 
-/// Writes `probe` as a Radiance picture; `path` is only for messages.
-///
-/// # Errors
-/// [`Error::File`].
-pub(super) fn write(out: &mut impl Write, path: &Path, probe: &Probe, metadata: &Metadata) -> Result<()> {
-    let failed = |error: std::io::Error| Error::file(path, error);
-    out.write_all(header(probe, metadata).as_bytes()).map_err(failed)?;
-    let (mut row, mut packed) = (Vec::new(), Vec::new());
-    for pixels in probe.pixels.chunks_exact(3 * probe.width) {
-        row.clear();
-        row.extend(pixels.chunks_exact(3).map(|pixel| encode([pixel[0], pixel[1], pixel[2]])));
-        packed.clear();
-        packed.extend([2, 2, (probe.width >> 8) as u8, (probe.width & 255) as u8]);
-        for component in 0..4 {
-            pack(&row, component, &mut packed);
-        }
-        out.write_all(&packed).map_err(failed)?;
-    }
-    Ok(())
+/// Rows as the file holds them, of `pixels` (RGB, whole rows of `width`).
+pub(super) fn encode_rows(width: usize, pixels: &[f32]) -> Vec<Vec<u8>> {
+    let encode_row = |pixels: &[f32]| {
+        let row: Vec<[u8; 4]> = pixels.as_chunks::<3>().0.iter().map(|&pixel| encode(pixel)).collect();
+        let mut packed = vec![2, 2, (width >> 8) as u8, (width & 255) as u8];
+        (0..4).for_each(|component| pack(&row, component, &mut packed));
+        packed
+    };
+    pixels.par_chunks(3 * width).map(encode_row).collect()
 }
 
-fn header(probe: &Probe, metadata: &Metadata) -> String {
-    let settings = &probe.settings;
+/// All that comes before the rows.
+pub(super) fn header(settings: &ProbeSettings, metadata: &Metadata) -> String {
     let mut text = String::from("#?RADIANCE\n");
     let mut line = |name: &str, value: &dyn std::fmt::Display| {
         let value = value.to_string().replace(['\n', '\r'], " ");
@@ -79,7 +67,7 @@ fn header(probe: &Probe, metadata: &Metadata) -> String {
     if let (Some(latitude), Some(longitude)) = (metadata.latitude_deg, metadata.longitude_deg) {
         line("LATLONG", &format!("{latitude:.6} {longitude:.6}"));
     }
-    for (name, value) in super::own_fields(probe, metadata) {
+    for (name, value) in super::own_fields(settings, metadata) {
         line(&name, &value);
     }
     if let Some(comments) = &metadata.comments {
@@ -95,7 +83,7 @@ fn header(probe: &Probe, metadata: &Metadata) -> String {
         line("EXPOSURE", &"1");
         line("FORMAT", &"32-bit_rle_rgbe");
     }
-    let _ = write!(text, "\n-Y {} +X {}\n", probe.height, probe.width);
+    let _ = write!(text, "\n-Y {} +X {}\n", settings.height(), settings.width);
     text
 }
 

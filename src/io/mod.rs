@@ -8,14 +8,17 @@ pub mod hdr;
 pub mod json;
 pub mod metadata;
 pub mod png;
+mod row_file;
+mod stream;
 
 pub use atomic::{check_writable, write_atomically};
 pub use config::Config;
 pub use describe::describe;
 pub use metadata::Metadata;
+pub use stream::render_to_files;
 
 use crate::error::{Error, Result};
-use crate::probe::{Probe, Projection};
+use crate::probe::{Probe, ProbeSettings, Projection};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::str::FromStr;
@@ -100,19 +103,16 @@ pub fn check_output(path: impl AsRef<Path>) -> Result<()> {
 /// [`Error::Input`] for an unknown suffix, options out of range, or pixels that half floats cannot hold; [`Error::File`].
 pub fn save(path: impl AsRef<Path>, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
     let path = path.as_ref();
-    let format = Format::of(path)?;
     crate::error::check_range("exposure_stops", options.exposure_stops, -20.0, 20.0, "stops")?;
     probe.validate()?;
-    write_atomically(path, |file| match format {
-        Format::Exr => exr::write(file, path, probe, options.half, metadata),
-        Format::Hdr => hdr::write(file, path, probe, metadata),
-        Format::Png => png::write(file, path, probe, options.exposure_stops),
-    })
+    match Format::of(path)? {
+        Format::Png => write_atomically(path, |file| png::write(file, path, probe, options.exposure_stops)),
+        Format::Exr | Format::Hdr => stream::write_probe(path, probe, options, metadata),
+    }
 }
 
 /// Name and value of what the headers of all formats say about a probe.
-fn own_fields(probe: &Probe, metadata: &Metadata) -> Vec<(String, String)> {
-    let settings = &probe.settings;
+fn own_fields(settings: &ProbeSettings, metadata: &Metadata) -> Vec<(String, String)> {
     let mut fields = vec![
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("projection", settings.projection.name().to_owned()),
@@ -139,7 +139,6 @@ fn own_fields(probe: &Probe, metadata: &Metadata) -> Vec<(String, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::probe::ProbeSettings;
 
     pub(super) fn gradient(settings: ProbeSettings) -> Probe {
         let count = 3 * settings.width * settings.height();

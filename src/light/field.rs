@@ -4,11 +4,13 @@ use super::air::Air;
 use super::angular::AngularFunctions;
 use super::contracted::Contracted;
 use super::grid::Grid;
+use super::harmonics::Orders;
 use super::lanes::{Lanes, add_scaled, splat};
 use super::ray::{Ray, StepLimits};
 use super::single::{add_strengths_and_paths, direct_ground_irradiance};
 use super::solve::{Block, LANES, solve};
-use super::source::MAX_ORDER;
+use super::source::{MAX_ORDER, Relative, Shape};
+use super::sunlight::Sunlight;
 use super::suns::{SunOnRay, Suns};
 use crate::atmosphere::OpticalProfile;
 use crate::error::Result;
@@ -80,21 +82,53 @@ impl LightField {
     /// # Errors
     /// [`crate::Error::Cancelled`].
     pub fn solve(profile: &OpticalProfile, numbers: &Numbers, polarised: bool, progress: &Progress) -> Result<Self> {
+        let count = profile.wavelengths_nm.len().div_ceil(LANES);
+        Self::assemble(profile, numbers, polarised, |block, air, [grid, iteration_grid], limits| {
+            let report = |fraction: f64| progress.report("solve", (block as f64 + fraction) / count as f64);
+            solve(air, grid, iteration_grid, numbers, polarised, limits, &report)
+        })
+    }
+
+    /// The field of `profile` with blocks that `make` makes of their number, their air, the grid and the limits of the rays.
+    fn assemble(
+        profile: &OpticalProfile,
+        numbers: &Numbers,
+        polarised: bool,
+        make: impl Fn(usize, Air<LANES>, [&Grid; 2], StepLimits) -> Result<Block>,
+    ) -> Result<Self> {
         debug_assert!(numbers.order <= MAX_ORDER);
         let wavelengths = profile.wavelengths_nm.len();
         let top = *profile.altitudes_km.last().expect("validated profile");
         let limits = StepLimits::new(numbers, profile.planet_radius_km);
         let [grid, iteration_grid] = Grid::new(numbers, profile.planet_radius_km, top);
-        let count = wavelengths.div_ceil(LANES);
-        let mut blocks = Vec::with_capacity(count);
-        for block in 0..count {
-            let air = Air::new(profile, block * LANES, numbers.order, polarised);
-            let report = |fraction: f64| progress.report("solve", (block as f64 + fraction) / count as f64);
-            blocks.push(solve(air, &grid, &iteration_grid, numbers, polarised, limits, &report)?);
-        }
+        let blocks = (0..wavelengths.div_ceil(LANES))
+            .map(|block| {
+                make(block, Air::new(profile, block * LANES, numbers.order, polarised), [&grid, &iteration_grid], limits)
+            })
+            .collect::<Result<Vec<_>>>()?;
         let phases = profile.components.iter().filter_map(|component| component.phase.as_ref());
         let functions = phases.map(|phase| AngularFunctions::new(phase, wavelengths, numbers.order)).collect::<Vec<_>>();
         Ok(Self { grid, blocks, wavelengths, polarised, functions: Arc::new(functions), limits })
+    }
+
+    /// What solving found, as plain numbers: [`Self::from_sections`] makes the same field of them without solving. Everything else follows quickly from the profile.
+    pub fn to_sections(&self) -> Vec<Vec<f32>> {
+        self.blocks.iter().flat_map(|block| block.field.to_sections()).collect()
+    }
+
+    /// The field that [`Self::to_sections`] was asked of, for the same `profile`, `numbers` and `polarised`.
+    ///
+    /// # Errors
+    /// [`Error::Data`](crate::Error::Data) for sections of another field.
+    pub fn from_sections(profile: &OpticalProfile, numbers: &Numbers, polarised: bool, sections: &[Vec<f32>]) -> Result<Self> {
+        let parts = Relative::<LANES>::SECTIONS;
+        Self::assemble(profile, numbers, polarised, |block, air, [grid, _], _| {
+            let shape = Shape { orders: Orders::new(numbers.order, numbers.azimuthal_order), polarised };
+            let own = sections.get(block * parts..(block + 1) * parts);
+            let field = own.and_then(|own| Relative::from_sections(grid, shape, own));
+            let field = field.ok_or_else(|| crate::Error::data("stored light of another field"))?;
+            Ok(Block { sunlight: Sunlight::new(&air), air, field })
+        })
     }
 
     /// For each component that scatters, how its light depends on the angle to the Sun.

@@ -33,6 +33,7 @@ mod source;
 mod stokes;
 mod sunlight;
 mod suns;
+pub mod thesis;
 mod zenith_axis;
 
 pub use angular::AngularFunctions;
@@ -40,3 +41,4 @@ pub use axis::Axis;
 pub use field::{Gathered, LightField, Observer};
 pub use path_tracer::{Estimate, Guiding, PathTracer};
 pub use stokes::transverse;
+pub use thesis::{Thesis, ThesisOptions};

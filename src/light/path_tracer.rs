@@ -22,7 +22,7 @@ mod angles;
 mod disc;
 mod guide;
 mod medium;
-mod sampling;
+pub(super) mod sampling;
 mod shells;
 mod single;
 mod stokes;

@@ -113,6 +113,30 @@ impl<const N: usize> Relative<N> {
         }
     }
 
+    /// How many sections [`Self::to_sections`] gives.
+    pub const SECTIONS: usize = 4;
+
+    /// All its numbers.
+    pub fn to_sections(&self) -> [Vec<f32>; 4] {
+        [self.values.concat(), self.log_magnitudes.clone(), self.ground.concat(), self.ground_log_magnitudes.clone()]
+    }
+
+    /// The field on `grid` of which [`Self::to_sections`] gave `sections`; `None` if they are not as many or as long as that.
+    pub fn from_sections(grid: &Grid, shape: Shape, sections: &[Vec<f32>]) -> Option<Self> {
+        let [values, log_magnitudes, ground, ground_log_magnitudes] = sections else { return None };
+        let zeniths = grid.zeniths.len();
+        let nodes = grid.altitudes.len() * zeniths;
+        let lengths = [nodes * shape.count() * N, nodes, zeniths * N, zeniths];
+        let fits = sections.iter().zip(lengths).all(|(section, length)| section.len() == length);
+        fits.then(|| Self {
+            shape,
+            values: values.as_chunks::<N>().0.to_vec(),
+            log_magnitudes: log_magnitudes.clone(),
+            ground: ground.as_chunks::<N>().0.to_vec(),
+            ground_log_magnitudes: ground_log_magnitudes.clone(),
+        })
+    }
+
     /// Diffuse irradiance of the ground per unit solar irradiance for the cosine of the solar zenith angle.
     #[inline(always)]
     pub fn ground_irradiance(&self, grid: &Grid, zenith_cosine: f64) -> Lanes<N> {

@@ -46,7 +46,12 @@ impl Probe {
                 self.pixels.len()
             )));
         }
-        match self.pixels.par_iter().position_first(|value| !value.is_finite()) {
+        // A block of values without a branch is checked as fast as memory can be read.
+        let sound = |block: &[f32]| block.iter().fold(true, |sound, value| sound & value.is_finite());
+        if self.pixels.par_chunks(1 << 14).all(sound) {
+            return Ok(());
+        }
+        match self.pixels.iter().position(|value| !value.is_finite()) {
             None => Ok(()),
             Some(k) => Err(Error::data(format!(
                 "the probe's pixel (column {}, row {}) is not finite",

@@ -64,11 +64,12 @@ impl LatLong {
             Rows::Corner => span / (height - 1) as f64,
         };
         let mut image = Self { width, rows, span, step, table: Vec::new() };
-        image.table = (0..height).map(|j| image.make_row(j, height)).collect();
+        let rule = GaussLegendre::new(8);
+        image.table = (0..height).map(|j| image.make_row(j, height, &rule)).collect();
         image
     }
 
-    fn make_row(&self, j: usize, height: usize) -> Row {
+    fn make_row(&self, j: usize, height: usize, rule: &GaussLegendre) -> Row {
         let (theta, from, to) = match self.rows {
             Rows::Centre => {
                 let edge = |j: usize| self.span * j as f64 / height as f64;
@@ -81,7 +82,6 @@ impl LatLong {
         };
         let column = TAU / self.width as f64;
         let mut row = Row { theta, from, to, solid_angle: 0.0, mean_cosine: 0.0, mean_upward: 0.0, mean_horizontal: 0.0 };
-        let rule = GaussLegendre::new(8);
         let mut knots = vec![from, theta, FRAC_PI_2, to];
         knots.retain(|knot| (from..=to).contains(knot));
         knots.sort_by(f64::total_cmp);

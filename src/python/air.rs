@@ -57,6 +57,9 @@ use std::sync::Arc;
 ///     "draft", "standard", "high" or "reference".
 /// polarisation
 ///     Whether polarisation is followed; must be False in this version.
+/// cache
+///     Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see ``SKYPROBE_CACHE_DIR``; drafts
+///     are not kept).
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Atmosphere {
     pub inner: Arc<sky::Atmosphere>,
@@ -69,7 +72,7 @@ impl Atmosphere {
         visibility_km = None, ozone_du = None, ground = None, angstrom_exponent = None, single_scattering_albedo = None,
         asymmetry = None, phase_function = None, aerosol_scale_height_km = None, stratospheric_aod550 = None,
         stratospheric_altitude_km = None, standard_atmosphere = None, surface_pressure_hpa = None,
-        quality = "standard", polarisation = false))]
+        quality = "standard", polarisation = false, cache = true))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         preset: &str,
@@ -91,6 +94,7 @@ impl Atmosphere {
         surface_pressure_hpa: Option<f64>,
         quality: &str,
         polarisation: bool,
+        cache: bool,
     ) -> PyResult<Self> {
         let air = AirParameters {
             preset: preset.parse()?,
@@ -112,7 +116,7 @@ impl Atmosphere {
             surface_pressure_hpa,
         };
         let inner = sky::Atmosphere::new(&air, quality.parse::<Quality>()?, polarisation)?;
-        Ok(Self { inner: Arc::new(inner) })
+        Ok(Self { inner: Arc::new(inner.with_cache(if cache { sky::Cache::of_user() } else { None })) })
     }
 
     /// An air given in full: another code's, or another planet's. Coefficients are linear between the altitudes.
@@ -137,9 +141,11 @@ impl Atmosphere {
     ///     "draft", "standard", "high" or "reference".
     /// polarisation
     ///     Whether polarisation is followed; must be False in this version.
+    /// cache
+    ///     As for ``Atmosphere``.
     #[staticmethod]
     #[pyo3(signature = (altitudes_km, wavelengths_nm, components, *, solar_irradiance, ground_albedo = None,
-        planet_radius_km = 6371.0, sun_angular_radius_deg = 0.2664, quality = "standard", polarisation = false))]
+        planet_radius_km = 6371.0, sun_angular_radius_deg = 0.2664, quality = "standard", polarisation = false, cache = true))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn from_profile(
         altitudes_km: &Bound<'_, PyAny>,
@@ -151,6 +157,7 @@ impl Atmosphere {
         sun_angular_radius_deg: f64,
         quality: &str,
         polarisation: bool,
+        cache: bool,
     ) -> PyResult<Self> {
         let altitudes_km = arrays::vector("altitudes_km", altitudes_km)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
@@ -173,7 +180,7 @@ impl Atmosphere {
             sun_angular_radius_deg,
         };
         let inner = sky::Atmosphere::from_profile(profile, quality.parse::<Quality>()?, polarisation)?;
-        Ok(Self { inner: Arc::new(inner) })
+        Ok(Self { inner: Arc::new(inner.with_cache(if cache { sky::Cache::of_user() } else { None })) })
     }
 
     /// Solve the light now instead of on first use. Solving twice costs nothing.

@@ -162,7 +162,7 @@ impl Probe {
 }
 
 /// `True` and `False`, or the name of what happens to pixels that half floats cannot hold.
-fn read_half(half: &Bound<'_, PyAny>) -> PyResult<Half> {
+pub fn read_half(half: &Bound<'_, PyAny>) -> PyResult<Half> {
     if let Ok(name) = half.extract::<String>() {
         return Ok(name.parse()?);
     }

@@ -3,20 +3,20 @@
 use super::air::Atmosphere;
 use super::arrays;
 use super::errors::InputError;
-use super::probe::Probe;
+use super::probe::{Probe, read_half};
 use super::results::{Body, Illuminance, Irradiance, SunEvents, datetime};
 use super::work;
 use crate::ephemeris::{self, Place, SunModel};
 use crate::error::check_range;
 use crate::io::config::time_at;
-use crate::io::describe;
-use crate::io::json;
+use crate::io::{FileOptions, Half, check_output, describe, json, render_to_files};
 use crate::probe::{self, ProbeSettings};
-use crate::sky;
+use crate::sky::{self, Model};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Largest departure of a direction's length from 1: what single precision leaves, with room.
@@ -40,17 +40,23 @@ const UNIT_TOLERANCE: f64 = 1e-4;
 ///     IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
 /// sun_model
 ///     By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+/// model
+///     By which model the sky is rendered: "scattering" (solved light: day, twilight, night) "preetham" (the analytic sky of 1999, by day at
+///     turbidities from 2 to 10), "thesis" or "thesis_single" (ray marching with random steps, light scattered at most twice or once:
+///     noisy, for small images). Spectra, irradiance and illuminance are those of "scattering".
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Sky {
     inner: Arc<sky::Sky>,
     air: Py<Atmosphere>,
     sun_model: SunModel,
+    model: Model,
 }
 
 #[pymethods]
 impl Sky {
     #[new]
-    #[pyo3(signature = (*, latitude, longitude, time, atmosphere, elevation_m = 0.0, zone = None, sun_model = "iau"))]
+    #[pyo3(signature = (*, latitude, longitude, time, atmosphere, elevation_m = 0.0, zone = None, sun_model = "iau",
+        model = "scattering"))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         latitude: f64,
@@ -60,12 +66,13 @@ impl Sky {
         elevation_m: f64,
         zone: Option<&str>,
         sun_model: &str,
+        model: &str,
     ) -> PyResult<Self> {
         let place = Place::new(latitude, longitude, elevation_m)?;
         let time = time_at(&place, &time_text(time)?, zone)?;
-        let sun_model = sun_model.parse()?;
+        let (sun_model, model) = (sun_model.parse()?, model.parse()?);
         let inner = sky::Sky::new(place, time, sun_model, atmosphere.get().inner.clone())?;
-        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model })
+        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model, model })
     }
 
     /// The sky under a Sun that is put, without place and time.
@@ -80,11 +87,20 @@ impl Sky {
     ///     The air.
     /// elevation_m
     ///     Height of the observer above the sea, -500 to 60000. [m]
+    /// model
+    ///     As for ``Sky``.
     #[staticmethod]
-    #[pyo3(signature = (*, altitude_deg, azimuth_deg, atmosphere, elevation_m = 0.0))]
-    fn with_sun(altitude_deg: f64, azimuth_deg: f64, atmosphere: Bound<'_, Atmosphere>, elevation_m: f64) -> PyResult<Self> {
+    #[pyo3(signature = (*, altitude_deg, azimuth_deg, atmosphere, elevation_m = 0.0, model = "scattering"))]
+    fn with_sun(
+        altitude_deg: f64,
+        azimuth_deg: f64,
+        atmosphere: Bound<'_, Atmosphere>,
+        elevation_m: f64,
+        model: &str,
+    ) -> PyResult<Self> {
+        let model = model.parse()?;
         let inner = sky::Sky::with_sun(altitude_deg, azimuth_deg, elevation_m, atmosphere.get().inner.clone())?;
-        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model: SunModel::default() })
+        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model: SunModel::default(), model })
     }
 
     /// Latitude of the place. [degrees]
@@ -97,6 +113,12 @@ impl Sky {
     #[getter]
     fn longitude(&self) -> Option<f64> {
         self.inner.place().map(|place| place.longitude_deg)
+    }
+
+    /// By which model the sky is rendered.
+    #[getter]
+    fn model(&self) -> &'static str {
+        self.model.name()
     }
 
     /// Height of the observer above the sea. [m]
@@ -251,21 +273,53 @@ impl Sky {
         gamut: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Probe> {
-        let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
-        let settings = ProbeSettings {
-            width: check_range("width", width as f64, low, high, "pixels")? as usize,
-            projection: projection.parse()?,
-            rows: rows.parse()?,
-            extent: extent.parse()?,
-            ground: ground.parse()?,
-            sun_disc,
-            scale: scale.parse()?,
-            color_space: color_space.parse()?,
-            gamut: json::word("gamut", gamut)?,
-        };
-        settings.validate()?;
-        let rendered = work::run(py, progress, |progress| probe::render(&self.inner.light(progress)?, &settings, progress))?;
-        Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &settings)))
+        let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
+        let rendered =
+            work::run(py, progress, |progress| probe::render(&*self.inner.light_by(self.model, progress)?, &settings, progress))?;
+        Ok(Probe::new(rendered, describe(&self.inner, (self.sun_model, self.model), &settings)))
+    }
+
+    /// Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
+    /// as a whole (but for a PNG).
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
+    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut
+    ///     As for ``render``.
+    /// half, exposure_stops
+    ///     As for ``Probe.save``.
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
+    #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
+        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", half = None, exposure_stops = 0.0, progress = None))]
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn render_to_file(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        width: i64,
+        projection: &str,
+        rows: &str,
+        extent: &str,
+        ground: &str,
+        sun_disc: bool,
+        scale: &str,
+        color_space: &str,
+        gamut: &str,
+        half: Option<&Bound<'_, PyAny>>,
+        exposure_stops: f64,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
+        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops };
+        check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
+        check_output(&path)?;
+        let metadata = describe(&self.inner, (self.sun_model, self.model), &settings);
+        work::run(py, progress, |progress| {
+            render_to_files(&*self.inner.light_by(self.model, progress)?, &settings, &[&path], &options, &metadata, progress)
+        })
     }
 
     fn __repr__(&self) -> String {
@@ -278,6 +332,25 @@ impl Sky {
             _ => format!("<Sky: {sun}>"),
         }
     }
+}
+
+/// The settings that names and a number ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
+fn probe_settings(width: i64, layout: [&str; 4], sun_disc: bool, colour: [&str; 3]) -> PyResult<ProbeSettings> {
+    let ([projection, rows, extent, ground], [scale, color_space, gamut]) = (layout, colour);
+    let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
+    let settings = ProbeSettings {
+        width: check_range("width", width as f64, low, high, "pixels")? as usize,
+        projection: projection.parse()?,
+        rows: rows.parse()?,
+        extent: extent.parse()?,
+        ground: ground.parse()?,
+        sun_disc,
+        scale: scale.parse()?,
+        color_space: color_space.parse()?,
+        gamut: json::word("gamut", gamut)?,
+    };
+    settings.validate()?;
+    Ok(settings)
 }
 
 /// A time as text: a `str` as it is, an aware `datetime` in ISO 8601.

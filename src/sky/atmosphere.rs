@@ -1,6 +1,7 @@
 //! One state of the air together with its solved light.
 
-use crate::atmosphere::{AirParameters, OpticalProfile};
+use super::cache::{Cache, Key, KeyBuilder};
+use crate::atmosphere::{AirParameters, Component, OpticalProfile};
 use crate::error::{Error, Result};
 use crate::light::LightField;
 use crate::progress::Progress;
@@ -14,6 +15,7 @@ pub struct Atmosphere {
     profile: OpticalProfile,
     quality: Quality,
     polarised: bool,
+    cache: Option<Cache>,
     field: OnceLock<LightField>,
     /// Held while solving, so that two threads that need the light at once solve it once.
     solving: Mutex<()>,
@@ -39,7 +41,13 @@ impl Atmosphere {
     }
 
     fn unsolved(parameters: Option<AirParameters>, profile: OpticalProfile, quality: Quality, polarised: bool) -> Self {
-        Self { parameters, profile, quality, polarised, field: OnceLock::new(), solving: Mutex::new(()) }
+        Self { parameters, profile, quality, polarised, cache: None, field: OnceLock::new(), solving: Mutex::new(()) }
+    }
+
+    /// The same air, whose solved light is looked for in `cache` and kept there; `None`, which is the default, for none. Drafts, which are solved while a slider moves, are
+    /// not kept.
+    pub fn with_cache(self, cache: Option<Cache>) -> Self {
+        Self { cache: cache.filter(|_| self.quality != Quality::Draft), ..self }
     }
 
     /// Solves the multiple scattering, unless that is done.
@@ -60,8 +68,50 @@ impl Atmosphere {
         if let Some(field) = self.field.get() {
             return Ok(field);
         }
-        let field = LightField::solve(&self.profile, &self.quality.numbers(), self.polarised, progress)?;
+        let field = match &self.cache {
+            Some(cache) => self.kept_or_solved(cache, progress)?,
+            None => LightField::solve(&self.profile, &self.quality.numbers(), self.polarised, progress)?,
+        };
         Ok(self.field.get_or_init(|| field))
+    }
+
+    fn kept_or_solved(&self, cache: &Cache, progress: &Progress) -> Result<LightField> {
+        let (profile, numbers, key) = (&self.profile, &self.quality.numbers(), self.key());
+        progress.report("solve", 0.0)?;
+        let kept = cache.load(&key);
+        if let Some(field) = kept.and_then(|kept| LightField::from_sections(profile, numbers, self.polarised, &kept).ok()) {
+            progress.report("solve", 1.0)?;
+            return Ok(field);
+        }
+        let field = LightField::solve(profile, numbers, self.polarised, progress)?;
+        cache.store(&key, &field.to_sections());
+        Ok(field)
+    }
+
+    /// Everything that the solution depends on.
+    fn key(&self) -> Key {
+        let mut key = KeyBuilder::of_this_solver();
+        // Every field by its name, so that a new one cannot be forgotten; solar irradiance does not enter the solution.
+        let OpticalProfile {
+            altitudes_km,
+            wavelengths_nm,
+            components,
+            ground_albedo,
+            solar_irradiance: _,
+            planet_radius_km,
+            sun_angular_radius_deg,
+        } = &self.profile;
+        for values in [altitudes_km, wavelengths_nm, ground_albedo, &vec![*planet_radius_km, *sun_angular_radius_deg]] {
+            key.numbers(values);
+        }
+        for Component { name: _, scattering_per_km, absorption_per_km, phase } in components {
+            key.numbers(scattering_per_km);
+            key.numbers(absorption_per_km);
+            // Debug text gives numbers to the last bit.
+            key.text(&format!("{phase:?}"));
+        }
+        key.text(&format!("{:?} {}", self.quality.numbers(), self.polarised));
+        key.finish()
     }
 
     /// Whether the light has been solved.
@@ -126,5 +176,66 @@ impl Atmosphere {
             crate::error::check_range("wavelengths_nm", wavelength, nodes[0], nodes[nodes.len() - 1], "nm")?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::light::Observer;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    fn air(aod550: f64, polarisation: bool, cache: &Cache) -> Atmosphere {
+        let parameters = AirParameters { aod550: Some(aod550), ..Default::default() };
+        Atmosphere::new(&parameters, Quality::Standard, polarisation).unwrap().with_cache(Some(cache.clone()))
+    }
+
+    /// How often the progress of a solve is reported: twice when nothing is solved.
+    fn reports(air: &Atmosphere) -> usize {
+        let count = AtomicUsize::new(0);
+        let listen = |stage: &str, _: f64| {
+            assert_eq!(stage, "solve");
+            count.fetch_add(1, Ordering::Relaxed);
+            true
+        };
+        air.solve(&Progress::new(&listen)).unwrap();
+        count.into_inner()
+    }
+
+    #[test]
+    fn kept_light_is_the_solved_light_bit_by_bit_and_of_this_air_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path(), 1 << 30);
+        let solved = air(0.1, true, &cache);
+        assert!(reports(&solved) > 2);
+        let kept = air(0.1, true, &cache);
+        assert_eq!(reports(&kept), 2);
+        let seen = |air: &Atmosphere| {
+            let field = air.field(&Progress::silent()).unwrap();
+            let observer = Observer { altitude_km: 1.2, sun_zenith: 1.4 };
+            let gathered = field.gather(&observer, 0.1, &[0.0, 0.7, 3.0]);
+            let radiances = (0..3).flat_map(|a| (0..gathered.wavelengths).map(move |w| (a, w)));
+            let radiances: Vec<_> = radiances.map(|(a, w)| field.stokes(&gathered, a, w, [0.3, 0.2], 0.4)).collect();
+            (radiances, field.sun_transmittance(&observer))
+        };
+        assert!(seen(&solved) == seen(&kept));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert_ne!(air(0.1 + 1e-15, true, &cache).key(), solved.key());
+        assert_ne!(air(0.1, false, &cache).key(), solved.key());
+    }
+
+    #[test]
+    fn a_damaged_file_is_solved_again_and_drafts_are_not_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path(), 1 << 30);
+        air(0.2, false, &cache).solve(&Progress::silent()).unwrap();
+        let file = std::fs::read_dir(folder.path()).unwrap().next().unwrap().unwrap().path();
+        let sound = std::fs::read(&file).unwrap();
+        std::fs::write(&file, &sound[..sound.len() / 2]).unwrap();
+        assert!(reports(&air(0.2, false, &cache)) > 2);
+        assert_eq!(std::fs::read(&file).unwrap(), sound);
+        let draft = Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap();
+        draft.with_cache(Some(cache)).solve(&Progress::silent()).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

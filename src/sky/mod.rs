@@ -1,18 +1,26 @@
 //! What is seen from a place at a time: the light of the sky, the Sun's disc, the ground.
 
 mod atmosphere;
+pub mod cache;
 mod disc;
 mod dome;
 mod filter;
 mod irradiance;
+mod model;
 mod place_and_time;
+pub mod preetham;
+mod thesis;
 
 pub use atmosphere::Atmosphere;
+pub use cache::Cache;
 pub use disc::Disc;
 pub use dome::SkyDome;
 pub use filter::PolarisingFilter;
 pub use irradiance::{Illuminance, Irradiance};
+pub use model::Model;
 pub use place_and_time::Sky;
+pub use preetham::Preetham;
+pub use thesis::ThesisSky;
 
 /// The light around an observer as a probe needs it: a smooth part that can be asked for in any direction, and discs
 /// so small and bright that they must be drawn with their exact energy.

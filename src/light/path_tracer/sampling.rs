@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// The generator SplitMix64 (Steele, Lea & Flood 2014): 64 bits of state, passes BigCrush.
-pub(super) struct Random {
+pub(in crate::light) struct Random {
     state: u64,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn frame(axis: DVec3) -> (DVec3, DVec3) {
 }
 
 /// The direction at angle acos(`cosine`) from the unit vector `axis`, at a uniformly random azimuth about it.
-pub(super) fn around(axis: DVec3, cosine: f64, random: &mut Random) -> DVec3 {
+pub(in crate::light) fn around(axis: DVec3, cosine: f64, random: &mut Random) -> DVec3 {
     let (first, second) = frame(axis);
     let (sine_azimuth, cosine_azimuth) = (TAU * random.uniform()).sin_cos();
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();

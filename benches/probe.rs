@@ -1,0 +1,69 @@
+//! What a probe costs once the light is there: pixels, with the dome of a clear sky and with a sky that costs nothing, and files.
+//! `cargo bench --bench probe`.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use skyprobe::atmosphere::AirParameters;
+use skyprobe::io::{FileOptions, Metadata, save};
+use skyprobe::probe::{ProbeSettings, render};
+use skyprobe::progress::Progress;
+use skyprobe::quality::Quality;
+use skyprobe::sky::{Atmosphere, Disc, Sky, SkyDome, SkyLight};
+use std::sync::Arc;
+
+/// A sky that is the same all along a circle: what is left of the time is the probe's own.
+struct Plain {
+    discs: Vec<Disc>,
+}
+
+impl SkyLight for Plain {
+    fn radiance_circle(&self, altitude: f64, _: &[f64], out: &mut [[f32; 3]]) {
+        out.fill([3.0 + altitude as f32, 3.1, 3.4]);
+    }
+
+    fn horizon_altitude(&self) -> f64 {
+        0.0
+    }
+
+    fn discs(&self) -> Vec<Disc> {
+        self.discs.clone()
+    }
+}
+
+fn dome() -> SkyDome {
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+    Sky::with_sun(30.0, 180.0, 0.0, air).unwrap().light(&Progress::silent()).unwrap()
+}
+
+fn pixels(criterion: &mut Criterion) {
+    let dome = dome();
+    let plain = Plain { discs: dome.discs() };
+    let skies: [(&str, &dyn SkyLight); 2] = [("dome", &dome), ("plain sky", &plain)];
+    let mut group = criterion.benchmark_group("pixels");
+    group.sample_size(10);
+    for (name, light) in skies {
+        for width in [512, 2048, 4096] {
+            let settings = ProbeSettings { width, ..Default::default() };
+            group.bench_function(format!("{name}, {width} x {}", width / 2), |bencher| {
+                bencher.iter(|| render(light, &settings, &Progress::silent()).unwrap());
+            });
+        }
+    }
+    group.finish();
+}
+
+fn files(criterion: &mut Criterion) {
+    let folder = tempfile::tempdir().unwrap();
+    let probe = render(&dome(), &ProbeSettings { width: 4096, ..Default::default() }, &Progress::silent()).unwrap();
+    let mut group = criterion.benchmark_group("write 4096 x 2048");
+    group.sample_size(10);
+    for name in ["sky.exr", "sky.hdr", "sky.png"] {
+        let path = folder.path().join(name);
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| save(&path, &probe, &FileOptions::default(), &Metadata::default()).unwrap());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, pixels, files);
+criterion_main!(benches);

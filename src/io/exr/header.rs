@@ -1,0 +1,113 @@
+//! The header of an OpenEXR file (OpenEXR documentation, "OpenEXR File Layout"): magic number, version, attributes in the order of their names.
+
+use super::super::{Metadata, own_fields};
+use super::Packing;
+use crate::probe::{ProbeSettings, Projection};
+use crate::spectrum::ColorSpace;
+use std::collections::BTreeMap;
+
+/// Longest name that the version field below allows [bytes].
+const LONGEST_NAME: usize = 31;
+
+/// Attributes by name: type and bytes.
+struct Attributes(BTreeMap<String, (&'static str, Vec<u8>)>);
+
+impl Attributes {
+    fn put(&mut self, name: &str, kind: &'static str, value: Vec<u8>) {
+        debug_assert!(name.len() <= LONGEST_NAME, "{name}");
+        self.0.insert(name.to_owned(), (kind, value));
+    }
+
+    fn float(&mut self, name: &str, value: f64) {
+        self.put(name, "float", (value as f32).to_le_bytes().to_vec());
+    }
+
+    fn floats(&mut self, name: &str, kind: &'static str, values: &[f64]) {
+        self.put(name, kind, values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect());
+    }
+
+    /// UTF-8, as readers expect.
+    fn text(&mut self, name: &str, value: &str) {
+        self.put(name, "string", value.as_bytes().to_vec());
+    }
+
+    fn window(&mut self, name: &str, width: usize, height: usize) {
+        let corners = [0, 0, width as i32 - 1, height as i32 - 1];
+        self.put(name, "box2i", corners.into_iter().flat_map(i32::to_le_bytes).collect());
+    }
+}
+
+/// All bytes before the table of offsets, for pixels packed by `packing`.
+pub fn header(settings: &ProbeSettings, metadata: &Metadata, packing: &Packing) -> Vec<u8> {
+    let mut attributes = Attributes(BTreeMap::new());
+    put_layout(&mut attributes, packing);
+    put_meaning(&mut attributes, settings, metadata, packing.scale());
+    // Magic number; version 2, one part of scan lines, short names.
+    let mut bytes = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
+    for (name, (kind, value)) in attributes.0 {
+        bytes.extend([name.as_bytes(), &[0], kind.as_bytes(), &[0], &(value.len() as i32).to_le_bytes(), &value].concat());
+    }
+    bytes.push(0);
+    bytes
+}
+
+/// What every file must say.
+fn put_layout(attributes: &mut Attributes, packing: &Packing) {
+    let (width, height) = packing.size();
+    let mut channels = Vec::new();
+    for name in ["B", "G", "R"] {
+        // Type of the samples (1 half, 2 float), flags, a sample for each pixel.
+        let kind: i32 = if packing.is_half() { 1 } else { 2 };
+        channels.extend([name.as_bytes(), &[0], &kind.to_le_bytes(), &[0; 4]].concat());
+        channels.extend([1_i32, 1].into_iter().flat_map(i32::to_le_bytes));
+    }
+    channels.push(0);
+    attributes.put("channels", "chlist", channels);
+    attributes.put("compression", "compression", vec![packing.compression()]);
+    attributes.put("lineOrder", "lineOrder", vec![0]);
+    attributes.window("dataWindow", width, height);
+    attributes.window("displayWindow", width, height);
+    attributes.float("pixelAspectRatio", 1.0);
+    attributes.floats("screenWindowCenter", "v2f", &[0.0, 0.0]);
+    attributes.float("screenWindowWidth", 1.0);
+}
+
+/// What the numbers in the file are.
+fn put_meaning(attributes: &mut Attributes, settings: &ProbeSettings, metadata: &Metadata, scale: f32) {
+    let space = settings.color_space.chromaticities();
+    attributes.floats("chromaticities", "chromaticities", &[space.red, space.green, space.blue, space.white].concat());
+    attributes.float("whiteLuminance", settings.scale.white_luminance() / f64::from(scale));
+    let places = [("latitude", metadata.latitude_deg), ("longitude", metadata.longitude_deg), ("altitude", metadata.elevation_m)];
+    // OpenEXR: UTC = local time + utcOffset.
+    for (name, value) in places.into_iter().chain([("utcOffset", metadata.utc_offset_s.map(|value| -value))]) {
+        if let Some(value) = value {
+            attributes.float(name, value);
+        }
+    }
+    if let Some(date) = &metadata.capture_date {
+        attributes.text("capDate", date);
+    }
+    attributes.text(
+        "wrapmodes",
+        match settings.projection {
+            Projection::LatLong => "periodic,clamp",
+            Projection::Fisheye => "black",
+        },
+    );
+    let warning =
+        (scale != 1.0).then(|| format!("The pixels are multiplied by {scale} to fit half floats: divide by it for true values."));
+    let comments: Vec<String> = warning.into_iter().chain(metadata.comments.clone()).collect();
+    if !comments.is_empty() {
+        attributes.text("comments", &comments.join("\n"));
+    }
+    attributes.text("software", concat!("skyprobe ", env!("CARGO_PKG_VERSION")));
+    if settings.color_space != ColorSpace::Xyz {
+        attributes.text("colorInteropID", settings.color_space.interop_id());
+    }
+    for (name, value) in own_fields(settings, metadata) {
+        attributes.text(&name, &value);
+    }
+    if scale != 1.0 {
+        attributes.float("skyprobe.pixel_scale", f64::from(scale));
+    }
+}

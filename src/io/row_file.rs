@@ -1,0 +1,137 @@
+//! A picture file that takes shape row by row; it appears when it is finished, or not at all.
+
+use super::atomic::Pending;
+use super::exr::{self, Packing};
+use super::{FileOptions, Format, Half, Metadata, hdr, png};
+use crate::error::{Error, Result};
+use crate::probe::{Probe, ProbeSettings};
+use std::fs::File;
+use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Turns rows into what the file holds of them, on any thread.
+#[derive(Clone, Copy, Debug)]
+pub enum Encoder {
+    Exr(Packing),
+    Hdr {
+        width: usize,
+    },
+    /// A PNG's exposure needs the whole picture.
+    Png,
+}
+
+impl Encoder {
+    /// The pieces of the file that hold `pixels`, whole rows from row `first` on: a multiple of 16, and so is their number unless they are the last.
+    pub fn encode(&self, first: usize, pixels: &[f32]) -> Vec<Vec<u8>> {
+        match self {
+            Self::Exr(packing) => packing.pack(first, pixels),
+            Self::Hdr { width } => hdr::encode_rows(*width, pixels),
+            Self::Png => Vec::new(),
+        }
+    }
+}
+
+/// The file while it is written.
+pub struct RowFile {
+    path: PathBuf,
+    pending: Pending,
+    out: BufWriter<File>,
+    encoder: Encoder,
+    settings: ProbeSettings,
+    exposure_stops: f64,
+    /// Where the next piece begins [bytes].
+    position: u64,
+    /// Where each piece begins.
+    offsets: Vec<u64>,
+    /// The picture so far, if the format needs all of it.
+    pixels: Vec<f32>,
+}
+
+impl RowFile {
+    /// Begins the file `path` in the format that its suffix names. `largest` tells the largest value of the picture; only half floats ask for it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an unknown suffix, options out of range, or pixels that half floats cannot hold; [`Error::File`].
+    pub fn create(
+        path: &Path,
+        settings: &ProbeSettings,
+        options: &FileOptions,
+        metadata: &Metadata,
+        largest: impl FnOnce() -> Result<exr::Largest>,
+    ) -> Result<Self> {
+        let format = Format::of(path)?;
+        crate::error::check_range("exposure_stops", options.exposure_stops, -20.0, 20.0, "stops")?;
+        let (width, height) = (settings.width, settings.height());
+        let (encoder, head) = match format {
+            Format::Exr => {
+                let half = options.half != Half::Off;
+                let scale = if half { exr::pixel_scale(options.half, largest()?, width)? } else { 1.0 };
+                let packing = Packing::new((width, height), half, scale);
+                let table = vec![0; 8 * packing.blocks()];
+                (Encoder::Exr(packing), [exr::header(settings, metadata, &packing), table].concat())
+            }
+            Format::Hdr => (Encoder::Hdr { width }, hdr::header(settings, metadata).into_bytes()),
+            Format::Png => (Encoder::Png, Vec::new()),
+        };
+        let pending = Pending::new(path)?;
+        let mut out = BufWriter::with_capacity(1 << 20, pending.open()?);
+        out.write_all(&head).map_err(|error| Error::file(path, error))?;
+        Ok(Self {
+            path: path.to_path_buf(),
+            pending,
+            out,
+            encoder,
+            settings: settings.clone(),
+            exposure_stops: options.exposure_stops,
+            position: head.len() as u64,
+            offsets: Vec::new(),
+            pixels: Vec::new(),
+        })
+    }
+
+    /// What turns rows into pieces of this file.
+    pub fn encoder(&self) -> Encoder {
+        self.encoder
+    }
+
+    /// Appends the rows `pixels`, which the encoder made `pieces` of.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn append(&mut self, pixels: &[f32], pieces: &[Vec<u8>]) -> Result<()> {
+        for piece in pieces {
+            self.offsets.push(self.position);
+            self.position += piece.len() as u64;
+            self.out.write_all(piece).map_err(|error| Error::file(&self.path, error))?;
+        }
+        if matches!(self.encoder, Encoder::Png) {
+            self.pixels.extend_from_slice(pixels);
+        }
+        Ok(())
+    }
+
+    /// Completes the file and puts it in its place.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn finish(mut self) -> Result<()> {
+        let failed = |error| Error::file(&self.path, error);
+        match self.encoder {
+            Encoder::Exr(packing) => {
+                let table: Vec<u8> = self.offsets.iter().flat_map(|offset| offset.to_le_bytes()).collect();
+                let first = self.offsets.first().copied().unwrap_or(self.position);
+                debug_assert_eq!(self.offsets.len(), packing.blocks());
+                self.out.seek(SeekFrom::Start(first - table.len() as u64)).map_err(failed)?;
+                self.out.write_all(&table).map_err(failed)?;
+            }
+            Encoder::Hdr { .. } => {}
+            Encoder::Png => {
+                let probe = Probe::new(std::mem::take(&mut self.pixels), self.settings.clone())?;
+                png::write(&mut self.out, &self.path, &probe, self.exposure_stops)?;
+            }
+        }
+        self.out.flush().map_err(failed)?;
+        drop(self.out);
+        self.pending.commit()
+    }
+}

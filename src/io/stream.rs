@@ -1,0 +1,129 @@
+//! From light to files without the picture in memory: a band of rows is rendered and packed while the one before is being written.
+
+use super::exr::Largest;
+use super::row_file::RowFile;
+use super::{FileOptions, Metadata};
+use crate::error::Result;
+use crate::probe::{Painter, Probe, ProbeSettings};
+use crate::progress::Progress;
+use crate::sky::SkyLight;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// Rows are handed over in multiples of this: the rows of a block of OpenEXR.
+const BLOCK_ROWS: usize = 16;
+
+/// Pixels of a band: enough for every thread, and little memory.
+fn band_rows(width: usize) -> usize {
+    let for_threads = 2 * rayon::current_num_threads();
+    let row_bytes = 12 * width;
+    let (least, most) = ((4 << 20) / (row_bytes * BLOCK_ROWS), (96 << 20) / (row_bytes * BLOCK_ROWS));
+    BLOCK_ROWS * for_threads.max(least).min(most).max(1)
+}
+
+/// Renders the light of `sky` into the files `paths`, each in the format that its suffix names, whole or not at all. The pixels are those of
+/// [`render`](crate::probe::render), but only a band of rows of them is in memory at a time: but for PNG, whose exposure needs the whole picture.
+/// Half floats are rendered twice, because the first rows depend on the brightest pixel. Progress is the stage "render".
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) for settings that no image can have, an unknown suffix, options out of range, or pixels that half
+/// floats cannot hold; [`Error::Data`](crate::Error::Data) for light that is not finite; [`Error::File`](crate::Error::File); [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn render_to_files<P: AsRef<Path>>(
+    sky: &dyn SkyLight,
+    settings: &ProbeSettings,
+    paths: &[P],
+    options: &FileOptions,
+    metadata: &Metadata,
+    progress: &Progress,
+) -> Result<()> {
+    settings.validate()?;
+    let measured = Mutex::new(None);
+    let largest = || {
+        let mut measured = measured.lock().unwrap_or_else(PoisonError::into_inner);
+        if measured.is_none() {
+            let first_half = |stage: &str, fraction: f64| progress.report(stage, 0.5 * fraction).is_ok();
+            *measured = Some(largest_value(sky, settings, &Progress::new(&first_half))?);
+        }
+        Ok(measured.unwrap_or_default())
+    };
+    let files = paths.iter().map(|path| RowFile::create(path.as_ref(), settings, options, metadata, largest));
+    let files = files.collect::<Result<Vec<_>>>()?;
+    let twice = measured.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+    let second_half = |stage: &str, fraction: f64| progress.report(stage, 0.5 + 0.5 * fraction).is_ok();
+    let rest = Progress::new(&second_half);
+    let painter = Painter::new(sky, settings, if twice { &rest } else { progress })?;
+    write_bands(&painter, files)
+}
+
+fn write_bands(painter: &Painter, mut files: Vec<RowFile>) -> Result<()> {
+    let (width, height) = painter.size();
+    let encoders: Vec<_> = files.iter().map(RowFile::encoder).collect();
+    let spare = Mutex::new(Vec::<Vec<f32>>::new());
+    let make = |rows: Range<usize>| {
+        let mut pixels = spare.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        pixels.resize(3 * width * rows.len(), 0.0);
+        painter.paint(rows.start, &mut pixels)?;
+        let pieces: Vec<_> = encoders.iter().map(|encoder| encoder.encode(rows.start, &pixels)).collect();
+        Ok((pixels, pieces))
+    };
+    let write = |(pixels, pieces): (Vec<f32>, Vec<Vec<Vec<u8>>>)| {
+        for (file, pieces) in files.iter_mut().zip(&pieces) {
+            file.append(&pixels, pieces)?;
+        }
+        spare.lock().unwrap_or_else(PoisonError::into_inner).push(pixels);
+        Ok(())
+    };
+    in_order(bands(width, height), make, write)?;
+    files.into_iter().try_for_each(RowFile::finish)
+}
+
+/// Writes `probe` to `path`; see [`save`](super::save).
+pub(super) fn write_probe(path: &Path, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
+    let stride = 3 * probe.width;
+    let largest = || Ok(Largest::of(0, &probe.pixels));
+    let mut file = RowFile::create(path, &probe.settings, options, metadata, largest)?;
+    let encoder = file.encoder();
+    let values = |rows: &Range<usize>| &probe.pixels[stride * rows.start..stride * rows.end];
+    let make = |rows: Range<usize>| Ok((encoder.encode(rows.start, values(&rows)), rows));
+    in_order(bands(probe.width, probe.height), make, |(pieces, rows)| file.append(values(&rows), &pieces))?;
+    file.finish()
+}
+
+/// The value of greatest magnitude in the whole picture.
+fn largest_value(sky: &dyn SkyLight, settings: &ProbeSettings, progress: &Progress) -> Result<Largest> {
+    let painter = Painter::new(sky, settings, progress)?;
+    let (width, height) = painter.size();
+    let mut pixels = Vec::new();
+    let mut largest = Largest::default();
+    for rows in bands(width, height) {
+        pixels.resize(3 * width * rows.len(), 0.0);
+        painter.paint(rows.start, &mut pixels)?;
+        largest = largest.or(Largest::of(3 * width * rows.start, &pixels));
+    }
+    Ok(largest)
+}
+
+fn bands(width: usize, height: usize) -> impl Iterator<Item = Range<usize>> {
+    let rows = band_rows(width);
+    (0..height).step_by(rows).map(move |first| first..(first + rows).min(height))
+}
+
+/// Makes one item after the other with all threads, while the one before is written.
+fn in_order<T: Send>(
+    bands: impl Iterator<Item = Range<usize>>,
+    make: impl Fn(Range<usize>) -> Result<T> + Sync,
+    mut write: impl FnMut(T) -> Result<()> + Send,
+) -> Result<()> {
+    let mut ready: Option<T> = None;
+    for band in bands {
+        let before = ready.take();
+        let (made, written) = rayon::join(|| make(band), || before.map_or(Ok(()), &mut write));
+        written?;
+        ready = Some(made?);
+    }
+    ready.map_or(Ok(()), write)
+}
+
+#[cfg(test)]
+mod tests;
