@@ -5,7 +5,7 @@
 //! from the guide, or else half from the collisions and half uniform. Weights are the physical density over that of the mixture.
 
 use super::disc::Disc;
-use super::guide::{Ending, Flight, Guide, Lobes, Ray};
+use super::guide::{Ending, Flight, Guide, Lobes, Sunshine};
 use super::medium::{Medium, Place};
 use super::sampling::{Random, around, lambertian};
 use super::shells::{Chord, End};
@@ -150,15 +150,13 @@ impl<'a> Walker<'a> {
         let sun_cosine = tip.direction.dot(sun);
         self.phases.clear();
         self.phases.extend(medium.scatterers.iter().map(|s| s.phase(medium.wavelength, sun_cosine)));
-        let ray = Ray {
-            chord: *chord,
-            length,
-            ends_on_ground: end == End::Ground,
-            sun_zenith_cosine: tip.position.dot(sun) / chord.radius,
-            sun_cosine,
+        let sunshine = Sunshine {
+            zenith_cosine: tip.position.dot(sun) / chord.radius,
+            cosine: sun_cosine,
             phases: if tip.events > 0 { Some(&self.phases) } else { None },
         };
-        let expected = self.flight.aim(guide, &ray);
+        self.flight.trace(guide, chord, length, end == End::Ground);
+        let expected = self.flight.aim(guide, &sunshine);
         if tip.events == 0 {
             self.expected = expected;
         }
