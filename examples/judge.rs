@@ -59,9 +59,8 @@ fn main() -> skyprobe::Result<()> {
     let paths = options.numbers("paths", "100000")[0] as usize;
     let (altitude, seed) = (options.numbers("altitude", "0")[0], options.numbers("seed", "1")[0] as u64);
     let batches = options.numbers("batches", "1")[0].max(1.0) as u64;
-    let mut air = AirParameters::default();
-    air.aod550 = options.has("aod").then(|| options.numbers("aod", "0.1")[0]);
-    air.asymmetry = options.has("asymmetry").then(|| options.numbers("asymmetry", "0.7")[0]);
+    let given = |name: &str| options.has(name).then(|| options.numbers(name, "0")[0]);
+    let air = AirParameters { aod550: given("aod"), asymmetry: given("asymmetry"), ..AirParameters::default() };
     let profile = air.optical_profile(&wavelengths)?;
     let field = LightField::solve(&profile, &Quality::High.numbers(), &Progress::silent())?;
     println!("   sun  view azimuth    nm   single/all  path tracer   +- %  largest %  seconds      solver      %  errors");
