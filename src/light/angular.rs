@@ -9,6 +9,7 @@
 //! ```text
 //! sum_l (2 l + 1) P_l (exp(X c_l) - 1) / X,   c_l = chi_l for l > L, f for l <= L
 //! ```
+//! The Sun is a disc, not a point: its own moments multiply those of the peak, which a fog's diffraction peak feels at several degrees.
 //! At X = 0 both parts are the phase function. This carries delta-M with its TMS and IMS corrections (Nakajima & Tanaka 1988, J. Quant. Spectrosc. Radiat. Transfer 40, 51) to all orders.
 //!
 //! As a function of the scattering angle this is needed for each wavelength and path. All these functions are nearly combinations of a few of them, which a pivoted
@@ -28,7 +29,7 @@ const PATHS: [f64; 13] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.
 const MOST_MOMENTS: usize = 1200;
 
 /// Moments smaller than this do not matter.
-const SMALLEST_MOMENT: f64 = 1e-3;
+const SMALLEST_MOMENT: f64 = 3e-4;
 
 /// Relative error at which the functions that were picked suffice for all others.
 const TOLERANCE: f64 = 1e-3;
@@ -69,12 +70,12 @@ pub struct Once {
 }
 
 impl AngularFunctions {
-    /// For `phase` at a number of wavelengths, beside a field that holds orders up to `order`.
-    pub fn new(phase: &Phase, wavelengths: usize, order: usize) -> Self {
+    /// For `phase` at a number of wavelengths, beside a field that holds orders up to `order`, and a Sun of angular radius `sun_radius` [radians].
+    pub fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
         if let Phase::Rayleigh { .. } = phase {
             return Self::Molecules((0..wavelengths).map(|w| [phase.basis_weight(0, w), phase.basis_weight(1, w)]).collect());
         }
-        Self::Table(Table::new(phase, wavelengths, order))
+        Self::Table(Table::new(phase, wavelengths, order, sun_radius))
     }
 
     /// Number of functions.
@@ -155,11 +156,12 @@ fn cosine_at(entry: usize) -> f64 {
 }
 
 impl Table {
-    fn new(phase: &Phase, wavelengths: usize, order: usize) -> Self {
+    fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
         let cosines: Vec<f64> = (0..ENTRIES).map(cosine_at).collect();
         let moments: Vec<Vec<f64>> = (0..wavelengths).map(|w| moments(phase, w)).collect();
         let most = moments.iter().map(Vec::len).max().unwrap_or(0).max(order + 1);
         let legendre = legendre_table(most, &cosines);
+        let disc = disc_moments(most, sun_radius);
         let add_series = |function: &mut [f64], l: usize, value: f64| {
             for (sum, p) in function.iter_mut().zip(&legendre[l]) {
                 *sum += (2 * l + 1) as f64 * value * p;
@@ -177,13 +179,14 @@ impl Table {
                 add_series(&mut rest, l, (chi - share) / (1.0 - share));
             }
             for path in PATHS {
-                // The peak without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions add.
+                // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
                 let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
-                if path > 0.0 {
-                    let added = |chi: f64| (path * chi).exp_m1() / path - chi;
-                    for l in 0..most {
-                        let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
-                        add_series(&mut peak, l, added(chi));
+                for l in 0..most {
+                    let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
+                    let repeated = if path > 0.0 { (path * chi).exp_m1() / path } else { chi };
+                    let added = repeated * disc[l] - chi;
+                    if added != 0.0 {
+                        add_series(&mut peak, l, added);
                     }
                 }
                 let factor = (share * path).exp();
@@ -217,6 +220,17 @@ fn moments(phase: &Phase, wavelength: usize) -> Vec<f64> {
     let last = moments.iter().rposition(|m| m.abs() > SMALLEST_MOMENT).unwrap_or(0);
     moments.truncate(last + 1);
     moments
+}
+
+/// Legendre moments of a uniform disc of angular radius `radius` [radians]; that of order 0 is 1.
+fn disc_moments(count: usize, radius: f64) -> Vec<f64> {
+    if radius <= 0.0 {
+        return vec![1.0; count];
+    }
+    let legendre = legendre_table(count + 2, &[radius.cos()]);
+    let height = 2.0 * (0.5 * radius).sin().powi(2);
+    let moment = |l: usize| (legendre[l - 1][0] - legendre[l + 1][0]) / ((2 * l + 1) as f64 * height);
+    (0..count).map(|l| if l == 0 { 1.0 } else { moment(l) }).collect()
 }
 
 /// P_l at `cosines` for l below `count`.
@@ -275,7 +289,7 @@ mod tests {
             Phase::CornetteShanks { asymmetry: 0.7 },
             Phase::Rayleigh { depolarisation: vec![0.03] },
         ] {
-            let functions = AngularFunctions::new(&phase, 1, 8);
+            let functions = AngularFunctions::new(&phase, 1, 8, 0.0);
             let share = forward_share(&phase.legendre_moments(10, 0), 8);
             let once = Once { strength: 1.0 - share, direct_strength: 1.0, path: 0.0 };
             for degrees in [0.0, 0.5, 3.0, 20.0, 90.0, 170.0, 180.0_f64] {
@@ -286,12 +300,22 @@ mod tests {
         }
     }
 
+    /// Far from the axis the disc's moments are those of a Gaussian of equal width, exp(-(l radius)^2 / 8).
+    #[test]
+    fn a_disc_has_the_moments_of_its_width() {
+        let radius = 0.005;
+        for (l, moment) in disc_moments(120, radius).into_iter().enumerate() {
+            let x = (l as f64 + 0.5) * radius;
+            assert!((moment - (-x * x / 8.0).exp()).abs() < 5e-5 + 0.003 * x.powi(4), "{l}: {moment}");
+        }
+    }
+
     /// For Henyey-Greenstein, n scatterings in line have the phase function with g^n: the series can be summed in closed form.
     #[test]
     fn the_peak_is_light_scattered_repeatedly_in_line() {
         let (g, order) = (0.9_f64, 6);
         let phase = Phase::HenyeyGreenstein { asymmetry: g };
-        let functions = AngularFunctions::new(&phase, 1, order);
+        let functions = AngularFunctions::new(&phase, 1, order, 0.0);
         let share = forward_share(&phase.legendre_moments(8, 0), order);
         for path in [0.3, 1.0, 2.5] {
             for degrees in [1.0, 5.0, 20.0, 60.0, 140.0_f64] {

@@ -116,7 +116,9 @@ impl LightField {
             })
             .collect::<Result<Vec<_>>>()?;
         let phases = profile.components.iter().filter_map(|component| component.phase.as_ref());
-        let functions = phases.map(|phase| AngularFunctions::new(phase, wavelengths, numbers.order)).collect::<Vec<_>>();
+        let functions = phases
+            .map(|phase| AngularFunctions::new(phase, wavelengths, numbers.order, profile.sun_angular_radius_deg.to_radians()))
+            .collect::<Vec<_>>();
         Ok(Self { grid, blocks, wavelengths, polarised, functions: Arc::new(functions), limits })
     }
 

@@ -33,9 +33,6 @@ const LOW_ORDER: usize = 2;
 /// Iterations after which the solve goes on with what it has; never reached with air that lets light through.
 const MAX_ITERATIONS: usize = 60;
 
-/// How many times more directions sunlight that is scattered once asks for than the smoother light scattered many times.
-const SUNLIT_DENSITY: usize = 2;
-
 /// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
 const FEWEST_AZIMUTHS: usize = 4;
 const AZIMUTHS_PER_DEGREE: f64 = 1.5;
@@ -115,12 +112,10 @@ pub fn solve(
         }
     }
 
-    let once = {
-        let finest = Target::new(grid, &air, numbers.zenith_nodes.map(|n| n * SUNLIT_DENSITY), limits);
-        let azimuths = azimuths(numbers.azimuth_nodes[1] * SUNLIT_DENSITY);
-        operator.scatter_sunlight(&finest, shape, many.len(), &azimuths, &stage(0.4, 0.55))?
-    };
     let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
+    // Light scattered once is less smooth in azimuth than the rest.
+    let azimuths = azimuths(2 * numbers.azimuth_nodes[1]);
+    let once = operator.scatter_sunlight(&fine, shape, many.len(), &azimuths, &stage(0.4, 0.55))?;
     let (mut source_grid, mut field) = (iteration_grid, low);
     for application in 0..numbers.full_applications {
         let part = |application: usize| 0.55 + 0.45 * application as f64 / numbers.full_applications as f64;
