@@ -397,8 +397,8 @@ class PolarisingFilter:
     angle_deg
         Angle of the axis from the vertical, clockwise as one sees it, -180 to 180. [degrees]
     held_towards_deg
-        Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture. None: it turns with the view, its axis
-        at the same angle from the vertical in every direction. [degrees]
+        Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture; the closer one looks along its axis, the less
+        it does. None: it turns with the view, its axis at the same angle from the vertical in every direction. [degrees]
     """
 
     def __new__(
