@@ -21,7 +21,7 @@ const MOST_CIRCLES: usize = 256;
 const MOST_AZIMUTHS: usize = 128;
 const NARROWEST: f64 = 1.0 / 1024.0;
 /// Circles on which azimuths are checked.
-const CHECKED_CIRCLES: usize = 9;
+const CHECKED_CIRCLES: usize = 17;
 /// Share of the dome's mean radiance below which differences do not count.
 const FLOOR: f64 = 0.01;
 
