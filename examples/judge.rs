@@ -56,12 +56,9 @@ fn main() -> skyprobe::Result<()> {
     let paths = options.numbers("paths", "100000")[0] as usize;
     let (altitude, seed) = (options.numbers("altitude", "0")[0], options.numbers("seed", "1")[0] as u64);
     let batches = options.numbers("batches", "1")[0].max(1.0) as u64;
-    let mut air = AirParameters::default();
-    air.aod550 = options.has("aod").then(|| options.numbers("aod", "0.1")[0]);
-    air.asymmetry = options.has("asymmetry").then(|| options.numbers("asymmetry", "0.7")[0]);
-    if let Some(kind) = options.0.get("aerosol") {
-        air.aerosol = Some(kind.parse()?);
-    }
+    let given = |name: &str| options.has(name).then(|| options.numbers(name, "0")[0]);
+    let aerosol = options.0.get("aerosol").map(|name| name.parse()).transpose()?;
+    let air = AirParameters { aerosol, aod550: given("aod"), asymmetry: given("asymmetry"), ..AirParameters::default() };
     let quality: Quality = options.0.get("quality").map_or("high", String::as_str).parse()?;
     let profile = air.optical_profile(&wavelengths)?;
     let field = LightField::solve(&profile, &quality.numbers(), options.has("polarised"), &Progress::silent())?;

@@ -19,8 +19,8 @@ use crate::spectrum::solar;
 use crate::units::EARTH_RADIUS_KM;
 use std::sync::Arc;
 
-/// Top of the profile [km]. The air above holds 3e-8 of the molecules.
-pub const TOP_KM: f64 = 120.0;
+/// Top of the profile [km]. What is above matters to twilight alone: at Sun -18 degrees, 20 km more change the radiance by about a per cent.
+pub const TOP_KM: f64 = super::standard_atmosphere::TOP_KM;
 
 /// Angular radius of the Sun's disc at 1 au [degrees].
 pub const SUN_ANGULAR_RADIUS_DEG: f64 = 0.2664;

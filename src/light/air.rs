@@ -1,4 +1,8 @@
 //! One block of wavelengths of an optical profile, laid out for the light transport.
+//!
+//! A phase function's peak in the forward direction is too narrow for the orders that the field holds. Light scattered into it goes on nearly as it came, so for the field it counts as not
+//! scattered (delta-M: Wiscombe 1977, J. Atmos. Sci. 34, 1408): with f the first Legendre moment that is left out, scattering and extinction shrink by f times the scattering, and the moments
+//! become (chi - f) / (1 - f). What f stands for comes back when light is gathered ([`super::angular`]).
 
 use super::axis::Axis;
 use super::lanes::{Lanes, add_scaled, lerp, splat};
@@ -22,25 +26,37 @@ pub struct Air<const N: usize> {
 
 /// A component that scatters.
 pub struct Scatterer<const N: usize> {
-    /// Scattering coefficient at the altitudes of the profile [km-1].
+    /// Scattering coefficient at the altitudes of the profile, without the forward peak [km-1].
     coefficient: Vec<Lanes<N>>,
-    /// Scattering optical depth of the air above these altitudes.
+    /// Scattering optical depth, with the forward peak, of the air above these altitudes.
     above: Vec<Lanes<N>>,
-    /// Legendre moments by order of what multiplies the moments of the light: the whole phase function, or the part of it that is not a dipole's.
+    /// Share of the forward peak in the scattering.
+    pub forward: Lanes<N>,
+    /// Legendre moments by order of what multiplies the moments of the light: the phase function without its forward peak, or the part of it that is not a dipole's.
     pub moments: Vec<Lanes<N>>,
-    /// Legendre moments by order of the whole phase function, up to the order that [`Self::band_limited`] needs.
+    /// Legendre moments by order of the phase function without its forward peak.
     all_moments: Vec<Lanes<N>>,
     /// Share of scattering by polarising dipoles: molecules in polarised light.
     pub dipole_share: Option<Lanes<N>>,
 }
 
-/// Orders beyond those of the field that sunlight is scattered with: the sharper rest of a phase function passes its energy to the field's orders only through the slow change of the
-/// light with direction.
-const MORE_ORDERS: usize = 6;
+/// Share of the forward peak of a phase function with these Legendre moments beside a field of orders up to `order`.
+pub fn forward_share(moments: &[f64], order: usize) -> f64 {
+    moments.get(order + 1).map_or(0.0, |moment| moment.clamp(0.0, 0.999))
+}
 
 impl<const N: usize> Air<N> {
     /// The wavelengths from index `first` on, with phase function moments up to `max_order`; molecules are dipoles if light is `polarised`.
     pub fn new(profile: &OpticalProfile, first: usize, max_order: usize, polarised: bool) -> Self {
+        Self::build(profile, first, Some(max_order), polarised)
+    }
+
+    /// The same air as it is, forward peaks and all, for what is not scattered at all.
+    pub fn unscaled(profile: &OpticalProfile, first: usize) -> Self {
+        Self::build(profile, first, None, false)
+    }
+
+    fn build(profile: &OpticalProfile, first: usize, max_order: Option<usize>, polarised: bool) -> Self {
         let count = profile.wavelengths_nm.len();
         let index = |lane: usize| (first + lane).min(count - 1);
         let row = |values: &[f64], z: usize| -> Lanes<N> { std::array::from_fn(|lane| values[z * count + index(lane)] as f32) };
@@ -48,39 +64,45 @@ impl<const N: usize> Air<N> {
         let mut extinction = vec![splat(0.0); levels];
         let mut scatterers = Vec::new();
         for component in &profile.components {
-            let scattering: Vec<Lanes<N>> = (0..levels).map(|z| row(&component.scattering_per_km, z)).collect();
+            let mut scattering: Vec<Lanes<N>> = (0..levels).map(|z| row(&component.scattering_per_km, z)).collect();
             for (z, total) in extinction.iter_mut().enumerate() {
                 add_scaled(total, 1.0, &scattering[z]);
                 add_scaled(total, 1.0, &row(&component.absorption_per_km, z));
             }
-            if let Some(phase) = &component.phase {
-                let by_lane: Vec<Vec<f64>> =
-                    (0..N).map(|lane| phase.legendre_moments(max_order + MORE_ORDERS + 1, index(lane))).collect();
-                let all_moments: Vec<Lanes<N>> =
-                    (0..=max_order + MORE_ORDERS).map(|l| std::array::from_fn(|lane| by_lane[lane][l] as f32)).collect();
-                let dipole_share: Option<Lanes<N>> = match phase {
-                    Phase::Rayleigh { depolarisation } if polarised => Some(std::array::from_fn(|lane| {
-                        dipole_share(depolarisation[index(lane).min(depolarisation.len() - 1)]) as f32
-                    })),
-                    _ => None,
-                };
-                let moments = match &dipole_share {
-                    Some(share) => {
-                        let mut rest = vec![splat(0.0); max_order + 1];
-                        rest[0] = share.map(|share| 1.0 - share);
-                        rest
-                    }
-                    None => all_moments[..=max_order].to_vec(),
-                };
-                let mut above = vec![splat(0.0); levels];
-                for z in (0..levels - 1).rev() {
-                    above[z] = above[z + 1];
-                    let half = 0.5 * (profile.altitudes_km[z + 1] - profile.altitudes_km[z]) as f32;
-                    add_scaled(&mut above[z], half, &scattering[z]);
-                    add_scaled(&mut above[z], half, &scattering[z + 1]);
-                }
-                scatterers.push(Scatterer { coefficient: scattering, above, moments, all_moments, dipole_share });
+            let (Some(phase), Some(order)) = (&component.phase, max_order) else { continue };
+            let by_lane: Vec<Vec<f64>> = (0..N).map(|lane| phase.legendre_moments(order + 2, index(lane))).collect();
+            let forward: Lanes<N> = std::array::from_fn(|lane| forward_share(&by_lane[lane], order) as f32);
+            let mut above = vec![splat(0.0); levels];
+            for z in (0..levels - 1).rev() {
+                above[z] = above[z + 1];
+                let half = 0.5 * (profile.altitudes_km[z + 1] - profile.altitudes_km[z]) as f32;
+                add_scaled(&mut above[z], half, &scattering[z]);
+                add_scaled(&mut above[z], half, &scattering[z + 1]);
             }
+            for (total, scattering) in extinction.iter_mut().zip(&mut scattering) {
+                for n in 0..N {
+                    total[n] -= forward[n] * scattering[n];
+                    scattering[n] *= 1.0 - forward[n];
+                }
+            }
+            let all_moments: Vec<Lanes<N>> = (0..=order)
+                .map(|l| std::array::from_fn(|lane| ((by_lane[lane][l] as f32) - forward[lane]) / (1.0 - forward[lane])))
+                .collect();
+            let dipole_share: Option<Lanes<N>> = match phase {
+                Phase::Rayleigh { depolarisation } if polarised => Some(std::array::from_fn(|lane| {
+                    dipole_share(depolarisation[index(lane).min(depolarisation.len() - 1)]) as f32
+                })),
+                _ => None,
+            };
+            let moments = match &dipole_share {
+                Some(share) => {
+                    let mut rest = vec![splat(0.0); order + 1];
+                    rest[0] = share.map(|share| 1.0 - share);
+                    rest
+                }
+                None => all_moments.clone(),
+            };
+            scatterers.push(Scatterer { coefficient: scattering, above, forward, moments, all_moments, dipole_share });
         }
         Self {
             radius: profile.planet_radius_km,
@@ -112,7 +134,7 @@ impl<const N: usize> Air<N> {
 }
 
 impl<const N: usize> Scatterer<N> {
-    /// Scattering coefficient [km-1] at a place found by [`Air::locate`].
+    /// Scattering coefficient without the forward peak [km-1] at a place found by [`Air::locate`].
     #[inline(always)]
     pub fn coefficient(&self, (interval, fraction): (usize, f32)) -> Lanes<N> {
         lerp(&self.coefficient[interval], &self.coefficient[interval + 1], fraction)
@@ -124,7 +146,7 @@ impl<const N: usize> Scatterer<N> {
         lerp(&self.above[interval], &self.above[interval + 1], fraction)
     }
 
-    /// The phase function without the orders that the field has no use for, at the scattering angle with cosine `cosine`.
+    /// The phase function without its forward peak at the scattering angle with cosine `cosine`.
     #[inline(always)]
     pub fn band_limited(&self, cosine: f64) -> Lanes<N> {
         let mut value = splat(0.0);

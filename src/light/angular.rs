@@ -1,17 +1,20 @@
 //! The dependence of scattered light on the angle from the Sun, as a sum of few functions.
 //!
-//! A component's singly scattered light is strength x phase function. The solved field holds the light scattered more often only in the orders l <= L of the spherical harmonics. Above L,
-//! where only forward peaks have anything to say, light that is scattered several times has stayed near a line: in the small-angle limit
-//! light that passed the scattering optical depth X has, order by order, the moments (exp(X chi_l) - 1) instead of X chi_l (the moments of a chain of n scatterings are
-//! chi_l^n: Goudsmit & Saunderson 1940; van de Hulst 1980, ch. 14). So strength multiplies, instead of the phase function P,
+//! The field holds light in the orders l <= L of the spherical harmonics, and for it forward peaks are not scattering at all ([`super::air`]). What a direction sees of light that came
+//! straight from the Sun is then two parts:
+//! - strength x the phase function without its forward peak, sum_{l <= L} (2 l + 1) P_l (chi_l - f) / (1 - f), in air where the peak is transmission;
+//! - direct strength x the forward peak, all its repetitions included. Light that is scattered several times into the peak has stayed near a line, and in this small-angle limit a chain of n scatterings
+//!   has the moments chi_l^n, so that along a path of scattering optical depth X all of them together have (exp(X chi_l) - 1) / X, in units of the first without any others
+//!   (Goudsmit & Saunderson 1940; van de Hulst 1980, ch. 14):
 //! ```text
-//! P + sum_{l > L} (2 l + 1) P_l(cos) [ (exp(X chi_l) - 1) / X - chi_l ]
+//! sum_l (2 l + 1) P_l (exp(X c_l) - 1) / X,   c_l = chi_l for l > L, f for l <= L
 //! ```
-//! with X the path, [`super::single::add_strengths_and_paths`]. It widens aureoles, and cancels the ripples that the cut at L leaves in the field.
+//! At X = 0 both parts are the phase function. This carries delta-M with its TMS and IMS corrections (Nakajima & Tanaka 1988, J. Quant. Spectrosc. Radiat. Transfer 40, 51) to all orders.
 //!
 //! As a function of the scattering angle this is needed for each wavelength and path. All these functions are nearly combinations of a few of them, which a pivoted
 //! Gram-Schmidt process picks: sums over wavelengths can then be done before the angle is known, and a pixel costs a few products.
 
+use super::air::forward_share;
 use super::axis::Axis;
 use crate::atmosphere::Phase;
 
@@ -40,14 +43,29 @@ pub enum AngularFunctions {
 
 /// Functions in a table, and how they combine.
 pub struct Table {
-    /// (entry, function).
+    /// (entry, function): those of the forward peak, then those of the rest.
     entries: Vec<f32>,
     count: usize,
+    /// How many functions belong to the forward peak.
+    peak: usize,
     paths: Axis,
-    /// Weights by (wavelength, path, function) of the phase function, and of the addition for a path times exp(-`growth` path).
-    weights: Vec<f64>,
-    /// Growth of the addition with the path, by wavelength.
+    /// Weights by (wavelength, path, function) of the forward peak times exp(-`growth` path).
+    peak_weights: Vec<f64>,
+    /// Growth of the peak with the path, by wavelength.
     growth: Vec<f64>,
+    /// Weights by (wavelength, function) of the rest.
+    rest_weights: Vec<f64>,
+}
+
+/// What is gathered of light scattered once, at one wavelength; see [`super::Gathered`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Once {
+    /// Strength without the forward peak [sr-1].
+    pub strength: f64,
+    /// Strength of light that came straight from the Sun and straight to the observer [sr-1].
+    pub direct_strength: f64,
+    /// Scattering optical depth that it passed.
+    pub path: f64,
 }
 
 impl AngularFunctions {
@@ -94,32 +112,39 @@ impl AngularFunctions {
         }
     }
 
-    /// Writes the weights of the functions at wavelength index `wavelength` for the scattering optical depth `path` to `out`, which has [`Self::len`] places.
-    pub fn weights(&self, wavelength: usize, path: f64, out: &mut [f64]) {
+    /// Writes the weights [sr-1] of the functions at wavelength index `wavelength` for what was gathered to `out`, which has [`Self::len`] places.
+    pub fn weights(&self, wavelength: usize, once: &Once, out: &mut [f64]) {
         match self {
-            Self::Molecules(weights) => out.copy_from_slice(&weights[wavelength]),
+            Self::Molecules(weights) => {
+                for (out, weight) in out.iter_mut().zip(weights[wavelength]) {
+                    *out = once.strength * weight;
+                }
+            }
             Self::Table(table) => {
-                let path = path.clamp(0.0, PATHS[PATHS.len() - 1]);
-                let n = table.count;
+                let path = once.path.clamp(0.0, PATHS[PATHS.len() - 1]);
+                let (peak, rest) = out.split_at_mut(table.peak);
                 let cubic = table.paths.cubic(path);
-                let of = |p: usize| &table.weights[(wavelength * PATHS.len() + p) * n..][..n];
-                // At path 0 stands the phase function itself, and the addition there is 0.
-                out.copy_from_slice(of(0));
-                let growth = (table.growth[wavelength] * path).exp();
-                for (a, weight) in cubic.weights.into_iter().enumerate().filter(|(a, _)| cubic.first + a > 0) {
-                    for (sum, value) in out.iter_mut().zip(of(cubic.first + a)) {
-                        *sum += growth * f64::from(weight) * value;
+                let direct = once.direct_strength * (table.growth[wavelength] * path).exp();
+                peak.fill(0.0);
+                for (a, weight) in cubic.weights.into_iter().enumerate() {
+                    let start = (wavelength * PATHS.len() + cubic.first + a) * table.peak;
+                    for (sum, value) in peak.iter_mut().zip(&table.peak_weights[start..]) {
+                        *sum += direct * f64::from(weight) * value;
                     }
+                }
+                let start = wavelength * (table.count - table.peak);
+                for (out, weight) in rest.iter_mut().zip(&table.rest_weights[start..]) {
+                    *out = once.strength * weight;
                 }
             }
         }
     }
 
-    /// The sum of functions times weights.
-    pub fn value(&self, wavelength: usize, path: f64, cosine: f64) -> f64 {
+    /// The sum of functions times weights [sr-1].
+    pub fn value(&self, wavelength: usize, once: &Once, cosine: f64) -> f64 {
         let (mut values, mut weights) = (vec![[0.0]; self.len()], vec![0.0; self.len()]);
         self.values(&[(0.5 * (1.0 - cosine)) as f32], &mut values);
-        self.weights(wavelength, path, &mut weights);
+        self.weights(wavelength, once, &mut weights);
         values.iter().zip(&weights).map(|(v, w)| f64::from(v[0]) * w).sum()
     }
 }
@@ -133,43 +158,53 @@ impl Table {
     fn new(phase: &Phase, wavelengths: usize, order: usize) -> Self {
         let cosines: Vec<f64> = (0..ENTRIES).map(cosine_at).collect();
         let moments: Vec<Vec<f64>> = (0..wavelengths).map(|w| moments(phase, w)).collect();
-        let most = moments.iter().map(Vec::len).max().unwrap_or(0);
+        let most = moments.iter().map(Vec::len).max().unwrap_or(0).max(order + 1);
         let legendre = legendre_table(most, &cosines);
-        let mut growth = Vec::with_capacity(wavelengths);
-        let mut functions = Vec::with_capacity(wavelengths * PATHS.len());
-        // Relative to the mean phase function, so that backward directions count as much as the aureole.
+        let add_series = |function: &mut [f64], l: usize, value: f64| {
+            for (sum, p) in function.iter_mut().zip(&legendre[l]) {
+                *sum += (2 * l + 1) as f64 * value * p;
+            }
+        };
+        // All functions are relative to the mean phase function, so that backward directions count as much as the aureole.
         let mut scale = vec![0.0; ENTRIES];
+        let (mut peaks, mut rests, mut growth, mut growths) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (w, moments) in moments.iter().enumerate() {
-            let rate = moments.get(order + 1..).unwrap_or(&[]).iter().fold(0.0, |a: f64, &b| a.max(b));
-            growth.push(rate);
+            let whole: Vec<f64> = cosines.iter().map(|&cosine| phase.value(w, cosine)).collect();
+            scale.iter_mut().zip(&whole).for_each(|(sum, value)| *sum += value / wavelengths as f64);
+            let share = forward_share(moments, order);
+            let mut rest = vec![0.0; ENTRIES];
+            for (l, chi) in moments.iter().enumerate().take(order + 1) {
+                add_series(&mut rest, l, (chi - share) / (1.0 - share));
+            }
             for path in PATHS {
-                let mut function = vec![0.0; ENTRIES];
-                if path == 0.0 {
-                    for ((value, sum), &cosine) in function.iter_mut().zip(&mut scale).zip(&cosines) {
-                        *value = phase.value(w, cosine);
-                        *sum += *value / wavelengths as f64;
-                    }
-                } else {
-                    for (l, &chi) in moments.iter().enumerate().skip(order + 1) {
-                        let addition = ((path * chi).exp_m1() / path - chi) * (-rate * path).exp() * (2 * l + 1) as f64;
-                        for (value, p) in function.iter_mut().zip(&legendre[l]) {
-                            *value += addition * p;
-                        }
+                // The peak without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions add.
+                let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
+                if path > 0.0 {
+                    let added = |chi: f64| (path * chi).exp_m1() / path - chi;
+                    for l in 0..most {
+                        let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
+                        add_series(&mut peak, l, added(chi));
                     }
                 }
-                functions.push(function);
+                let factor = (share * path).exp();
+                peak.iter_mut().for_each(|value| *value /= factor);
+                peaks.push(peak);
+                growths.push(factor);
             }
+            growth.push(share);
+            rests.push(rest);
         }
-        for function in &mut functions {
-            for (value, scale) in function.iter_mut().zip(&scale) {
-                *value /= scale.max(1e-12);
-            }
+        for function in peaks.iter_mut().chain(&mut rests) {
+            function.iter_mut().zip(&scale).for_each(|(value, scale)| *value /= scale.max(1e-12));
         }
-        let (basis, weights) = pick(&functions);
-        let count = basis.len();
-        let entries =
-            (0..ENTRIES).flat_map(|e| basis.iter().map(move |b| (e, b)).map(|(e, b)| (b[e] * scale[e]) as f32)).collect();
-        Self { entries, count, paths: Axis::new(PATHS.to_vec()), weights, growth }
+        let (peak_basis, peak_weights) = pick(&peaks, &growths);
+        let (rest_basis, rest_weights) = pick(&rests, &vec![1.0; wavelengths]);
+        let (peak, count) = (peak_basis.len(), peak_basis.len() + rest_basis.len());
+        let mut entries = Vec::with_capacity(ENTRIES * count);
+        for (e, scale) in scale.iter().enumerate() {
+            entries.extend(peak_basis.iter().chain(&rest_basis).map(|function| (function[e] * scale) as f32));
+        }
+        Self { entries, count, peak, paths: Axis::new(PATHS.to_vec()), peak_weights, growth, rest_weights }
     }
 }
 
@@ -202,17 +237,19 @@ fn legendre_table(count: usize, cosines: &[f64]) -> Vec<Vec<f64>> {
     table
 }
 
-/// Orthonormal functions that reproduce all of `functions` within the tolerance, relative to the largest value of each and to that of the smoothest, and the weights (function, basis) that do.
-fn pick(functions: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let largest = |f: &[f64]| f.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let limits: Vec<f64> = functions.iter().map(|f| TOLERANCE * largest(f).max(1e-2)).collect();
+/// Orthonormal functions that reproduce all of `functions`, which are relative to the phase function, and the weights (function, basis) that do. At every angle the error of a function times
+/// its growth is within the tolerance of what it is added to: 1 and itself.
+fn pick(functions: &[Vec<f64>], growths: &[f64]) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut rest = functions.to_vec();
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut weights = vec![Vec::new(); functions.len()];
     while basis.len() < functions.len() {
-        let excess = rest.iter().zip(&limits).map(|(f, limit)| largest(f) / limit);
-        let Some((worst, excess)) = excess.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-        if excess < 1.0 {
+        let error = |k: usize| {
+            let values = rest[k].iter().zip(&functions[k]);
+            values.map(|(rest, whole)| rest.abs() / (1.0 / growths[k] + whole.abs())).fold(0.0, f64::max)
+        };
+        let Some((worst, error)) = (0..functions.len()).map(|k| (k, error(k))).max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        if error < TOLERANCE {
             break;
         }
         let length = rest[worst].iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -239,36 +276,38 @@ mod tests {
             Phase::Rayleigh { depolarisation: vec![0.03] },
         ] {
             let functions = AngularFunctions::new(&phase, 1, 8);
+            let share = forward_share(&phase.legendre_moments(10, 0), 8);
+            let once = Once { strength: 1.0 - share, direct_strength: 1.0, path: 0.0 };
             for degrees in [0.0, 0.5, 3.0, 20.0, 90.0, 170.0, 180.0_f64] {
                 let cosine = degrees.to_radians().cos();
-                let (found, expected) = (functions.value(0, 0.0, cosine), phase.value(0, cosine));
-                assert!((found / expected - 1.0).abs() < 2e-3, "{phase:?} {degrees}: {found} {expected}");
+                let (found, expected) = (functions.value(0, &once, cosine), phase.value(0, cosine));
+                assert!((found / expected - 1.0).abs() < 3e-3, "{phase:?} {degrees}: {found} {expected}");
             }
         }
     }
 
     /// For Henyey-Greenstein, n scatterings in line have the phase function with g^n: the series can be summed in closed form.
     #[test]
-    fn the_addition_is_light_scattered_repeatedly_in_line() {
+    fn the_peak_is_light_scattered_repeatedly_in_line() {
         let (g, order) = (0.9_f64, 6);
         let phase = Phase::HenyeyGreenstein { asymmetry: g };
         let functions = AngularFunctions::new(&phase, 1, order);
+        let share = forward_share(&phase.legendre_moments(8, 0), order);
         for path in [0.3, 1.0, 2.5] {
             for degrees in [1.0, 5.0, 20.0, 60.0, 140.0_f64] {
                 let cosine = degrees.to_radians().cos();
-                let mut expected = phase.value(0, cosine);
-                let mut factor = 1.0;
-                for n in 2..30_i32 {
-                    factor *= path / f64::from(n);
+                let (mut expected, mut factor) = (0.0, 1.0);
+                for n in 1..30_i32 {
+                    factor *= if n == 1 { 1.0 } else { path / f64::from(n) };
                     let chain = Phase::HenyeyGreenstein { asymmetry: g.powi(n) };
                     let low: f64 = legendre_table(order + 1, &[cosine])
                         .iter()
                         .enumerate()
-                        .map(|(l, p)| (2 * l + 1) as f64 * p[0] * chain.legendre_moment(l, 0))
+                        .map(|(l, p)| (2 * l + 1) as f64 * p[0] * (chain.legendre_moment(l, 0) - share.powi(n)))
                         .sum();
                     expected += factor * (chain.value(0, cosine) - low);
                 }
-                let found = functions.value(0, path, cosine);
+                let found = functions.value(0, &Once { strength: 0.0, direct_strength: 1.0, path }, cosine);
                 assert!(
                     (found - expected).abs() < 5e-3 * phase.value(0, cosine).max(expected.abs()),
                     "{path} {degrees}: {found} {expected}"

@@ -1,18 +1,18 @@
 //! The light field of one air, for any Sun, observer and direction.
 
 use super::air::Air;
-use super::angular::AngularFunctions;
+use super::angular::{AngularFunctions, Once};
 use super::contracted::Contracted;
 use super::grid::Grid;
 use super::harmonics::Orders;
 use super::lanes::{Lanes, add_scaled, splat};
 use super::ray::{Ray, StepLimits};
-use super::single::{add_strengths_and_paths, direct_ground_irradiance};
+use super::single::{PARTS, add_strengths_and_paths, direct_ground_irradiance};
 use super::solve::{Block, LANES, solve};
 use super::source::{MAX_ORDER, Relative, Shape};
 use super::sunlight::Sunlight;
 use super::suns::{SunOnRay, Suns};
-use crate::atmosphere::OpticalProfile;
+use crate::atmosphere::{OpticalProfile, Phase};
 use crate::error::Result;
 use crate::progress::Progress;
 use crate::quality::Numbers;
@@ -41,7 +41,7 @@ pub struct Observer {
 
 /// Light gathered along rays of equal zenith angle and several azimuths, in parts that are smooth in direction.
 ///
-/// Radiance = sum over components of [`AngularFunctions`] (angle to the Sun; wavelength, path) x strength + rest.
+/// Radiance = sum over components of [`AngularFunctions`] (angle to the Sun) with weights that follow from wavelength, strengths and path, + rest.
 #[derive(Clone, Debug, Default)]
 pub struct Gathered {
     /// Number of wavelengths.
@@ -50,28 +50,33 @@ pub struct Gathered {
     pub components: usize,
     /// Number of Stokes parameters of the rest: 1 (I) or 3 (I, Q, U).
     pub stokes: usize,
-    /// Per unit solar irradiance, row-major, shape (azimuths, parts, wavelengths); the parts are strength [sr-1] and path of each component, then the rest [sr-1].
+    /// Per unit solar irradiance, row-major, shape (azimuths, parts, wavelengths); the parts are strength [sr-1], direct strength [sr-1] and path of each component, then the rest [sr-1].
     values: Vec<f32>,
 }
 
 impl Gathered {
-    /// Strength of single scattering by component `component` at azimuth index `azimuth` [sr-1].
+    /// Strength of single scattering by component `component` without its forward peak at azimuth index `azimuth` [sr-1].
     pub fn strength(&self, azimuth: usize, component: usize) -> &[f32] {
-        self.part(azimuth, 2 * component)
+        self.part(azimuth, PARTS * component)
     }
 
-    /// Scattering optical depth by component `component` that its light has passed.
+    /// Strength of single scattering by component `component`, forward peak and all, of light that was not scattered otherwise [sr-1].
+    pub fn direct_strength(&self, azimuth: usize, component: usize) -> &[f32] {
+        self.part(azimuth, PARTS * component + 1)
+    }
+
+    /// Scattering optical depth by component `component` that this light has passed.
     pub fn path(&self, azimuth: usize, component: usize) -> &[f32] {
-        self.part(azimuth, 2 * component + 1)
+        self.part(azimuth, PARTS * component + 2)
     }
 
     /// All other light [sr-1]: Stokes parameter `parameter` (0 I, 1 Q, 2 U; those that there are) in the frame of the ray, Q > 0 vertical.
     pub fn rest(&self, azimuth: usize, parameter: usize) -> &[f32] {
-        self.part(azimuth, 2 * self.components + parameter)
+        self.part(azimuth, PARTS * self.components + parameter)
     }
 
     fn part(&self, azimuth: usize, part: usize) -> &[f32] {
-        let start = (azimuth * (2 * self.components + self.stokes) + part) * self.wavelengths;
+        let start = (azimuth * (PARTS * self.components + self.stokes) + part) * self.wavelengths;
         &self.values[start..start + self.wavelengths]
     }
 }
@@ -94,16 +99,20 @@ impl LightField {
         profile: &OpticalProfile,
         numbers: &Numbers,
         polarised: bool,
-        make: impl Fn(usize, Air<LANES>, [&Grid; 2], StepLimits) -> Result<Block>,
+        make: impl Fn(usize, (Air<LANES>, Option<Sunlight<LANES>>), [&Grid; 2], StepLimits) -> Result<Block>,
     ) -> Result<Self> {
         debug_assert!(numbers.order <= MAX_ORDER);
         let wavelengths = profile.wavelengths_nm.len();
-        let top = *profile.altitudes_km.last().expect("validated profile");
         let limits = StepLimits::new(numbers, profile.planet_radius_km);
-        let [grid, iteration_grid] = Grid::new(numbers, profile.planet_radius_km, top);
+        let [grid, iteration_grid] = Grid::new(numbers, profile);
         let blocks = (0..wavelengths.div_ceil(LANES))
             .map(|block| {
-                make(block, Air::new(profile, block * LANES, numbers.order, polarised), [&grid, &iteration_grid], limits)
+                let air = Air::<LANES>::new(profile, block * LANES, numbers.order, polarised);
+                // What molecules scatter is held by the lowest orders; every other component has something beyond its orders.
+                let peaks =
+                    profile.components.iter().any(|c| c.phase.as_ref().is_some_and(|p| !matches!(p, Phase::Rayleigh { .. })));
+                let direct = peaks.then(|| Sunlight::new(&Air::unscaled(profile, block * LANES)));
+                make(block, (air, direct), [&grid, &iteration_grid], limits)
             })
             .collect::<Result<Vec<_>>>()?;
         let phases = profile.components.iter().filter_map(|component| component.phase.as_ref());
@@ -122,12 +131,12 @@ impl LightField {
     /// [`Error::Data`](crate::Error::Data) for sections of another field.
     pub fn from_sections(profile: &OpticalProfile, numbers: &Numbers, polarised: bool, sections: &[Vec<f32>]) -> Result<Self> {
         let parts = Relative::<LANES>::SECTIONS;
-        Self::assemble(profile, numbers, polarised, |block, air, [grid, _], _| {
+        Self::assemble(profile, numbers, polarised, |block, (air, direct), [grid, _], _| {
             let shape = Shape { orders: Orders::new(numbers.order, numbers.azimuthal_order), polarised };
             let own = sections.get(block * parts..(block + 1) * parts);
             let field = own.and_then(|own| Relative::from_sections(grid, shape, own));
             let field = field.ok_or_else(|| crate::Error::data("stored light of another field"))?;
-            Ok(Block { sunlight: Sunlight::new(&air), air, field })
+            Ok(Block { sunlight: Sunlight::new(&air), air, direct, field })
         })
     }
 
@@ -145,7 +154,7 @@ impl LightField {
     pub fn gather(&self, observer: &Observer, mu: f64, azimuths: &[f64]) -> Gathered {
         let components = self.functions.len();
         let stokes = if self.polarised { 3 } else { 1 };
-        let stride = 2 * components + stokes;
+        let stride = PARTS * components + stokes;
         let mut out = Gathered {
             wavelengths: self.wavelengths,
             components,
@@ -171,8 +180,13 @@ impl LightField {
     /// `cosine` is that of the angle to the Sun.
     pub fn radiance(&self, gathered: &Gathered, azimuth: usize, wavelength: usize, cosine: f64) -> f64 {
         let once = self.functions.iter().enumerate().map(|(c, functions)| {
-            let path = f64::from(gathered.path(azimuth, c)[wavelength]);
-            functions.value(wavelength, path, cosine) * f64::from(gathered.strength(azimuth, c)[wavelength])
+            let at = |values: &[f32]| f64::from(values[wavelength]);
+            let once = Once {
+                strength: at(gathered.strength(azimuth, c)),
+                direct_strength: at(gathered.direct_strength(azimuth, c)),
+                path: at(gathered.path(azimuth, c)),
+            };
+            functions.value(wavelength, &once, cosine)
         });
         once.sum::<f64>() + f64::from(gathered.rest(azimuth, 0)[wavelength])
     }
@@ -199,10 +213,14 @@ impl LightField {
 
     /// Transmittance to the Sun's disc by wavelength, as a mean over the whole disc (parts behind the horizon count as 0).
     pub fn sun_transmittance(&self, observer: &Observer) -> Vec<f64> {
-        let light = self
-            .blocks
-            .iter()
-            .flat_map(|block| block.sunlight.over_disc(observer.altitude_km, observer.sun_zenith.cos()).unwrap_or(splat(0.0)));
+        let light = self.blocks.iter().flat_map(|block| {
+            block
+                .direct
+                .as_ref()
+                .unwrap_or(&block.sunlight)
+                .over_disc(observer.altitude_km, observer.sun_zenith.cos())
+                .unwrap_or(splat(0.0))
+        });
         light.take(self.wavelengths).map(f64::from).collect()
     }
 }
@@ -210,16 +228,16 @@ impl LightField {
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn gather_block(grid: &Grid, block: &Block, ray: &Ray<LANES>, sun_zenith: f64, azimuths: &[f64], parts: &mut [Lanes<LANES>]) {
     let (air, sunlight, field) = (&block.air, &block.sunlight, &block.field);
-    let paths = 2 * air.scatterers().len();
+    let paths = PARTS * air.scatterers().len();
     let stokes = if field.shape.polarised { 3 } else { 1 };
     let sun = sun_zenith.sin_cos();
     let r0 = air.radius + ray.start_altitude;
     let on_rays: Vec<SunOnRay> = azimuths.iter().map(|a| SunOnRay::new(r0, ray.zenith_cosine, (a.cos(), a.sin()), sun)).collect();
     for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(paths + stokes)) {
-        add_strengths_and_paths(air, sunlight, ray, on_ray, &mut part[..paths]);
-        for pair in part[..paths].chunks_exact_mut(2) {
+        add_strengths_and_paths(air, (sunlight, block.direct.as_ref()), ray, on_ray, &mut part[..paths]);
+        for component in part[..paths].chunks_exact_mut(PARTS) {
             for n in 0..LANES {
-                pair[1][n] = if pair[0][n] > 0.0 { pair[1][n] / pair[0][n] } else { 0.0 };
+                component[2][n] = if component[1][n] > 0.0 { component[2][n] / component[1][n] } else { 0.0 };
             }
         }
     }

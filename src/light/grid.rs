@@ -3,6 +3,7 @@
 use super::axis::Axis;
 use super::gauss;
 use super::zenith_axis::ZenithAxis;
+use crate::atmosphere::OpticalProfile;
 use crate::quality::Numbers;
 use std::f64::consts::{PI, TAU};
 
@@ -17,6 +18,68 @@ pub struct Grid {
     /// Sine and cosine of the solar zenith angles.
     pub sun: Vec<(f64, f64)>,
     radius: f64,
+}
+
+/// Part of the levels that follow the optical depth of the air rather than altitude: shallow layers, as of fog, get levels of their own.
+const BY_OPTICAL_DEPTH: f64 = 0.3;
+
+/// Where levels stand: equidistant in a mixture of (altitude / top)^(1 / 2.2) and the share of the vertical optical depth that is below.
+struct Measure {
+    altitudes: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Measure {
+    fn new(profile: &OpticalProfile) -> Self {
+        const PARTS: usize = 8;
+        let (z, count) = (&profile.altitudes_km, profile.wavelengths_nm.len());
+        let top = z[z.len() - 1];
+        let mut below = vec![vec![0.0; z.len()]; count];
+        for component in &profile.components {
+            for i in 1..z.len() {
+                for (w, below) in below.iter_mut().enumerate() {
+                    let extinction =
+                        |i: usize| component.scattering_per_km[i * count + w] + component.absorption_per_km[i * count + w];
+                    below[i] += 0.5 * (z[i] - z[i - 1]) * (extinction(i - 1) + extinction(i));
+                }
+            }
+        }
+        let mut share = vec![0.0; z.len()];
+        for below in &mut below {
+            for i in 1..z.len() {
+                below[i] += below[i - 1];
+            }
+            let all = below[z.len() - 1].max(1e-12);
+            share.iter_mut().zip(below.iter()).for_each(|(share, below)| *share += below / all / count as f64);
+        }
+        // Finer than the profile's own altitudes, between which the shares are linear.
+        let (mut altitudes, mut values) = (Vec::new(), Vec::new());
+        for i in 0..z.len() - 1 {
+            for part in 0..PARTS {
+                let t = part as f64 / PARTS as f64;
+                let altitude = z[i] + t * (z[i + 1] - z[i]);
+                altitudes.push(altitude);
+                let by_altitude = ((altitude - z[0]) / (top - z[0])).powf(1.0 / 2.2);
+                values
+                    .push((1.0 - BY_OPTICAL_DEPTH) * by_altitude + BY_OPTICAL_DEPTH * (share[i] + t * (share[i + 1] - share[i])));
+            }
+        }
+        altitudes.push(top);
+        values.push((1.0 - BY_OPTICAL_DEPTH) + BY_OPTICAL_DEPTH * share[z.len() - 1]);
+        Self { altitudes, values }
+    }
+
+    /// `count` levels from the ground to the top.
+    fn spread(&self, count: usize) -> Axis {
+        let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
+        let at = |i: usize| {
+            let wanted = first + (last - first) * i as f64 / (count - 1) as f64;
+            let k = self.values.partition_point(|&v| v <= wanted).clamp(1, self.values.len() - 1);
+            let t = (wanted - self.values[k - 1]) / (self.values[k] - self.values[k - 1]);
+            self.altitudes[k - 1] + t.clamp(0.0, 1.0) * (self.altitudes[k] - self.altitudes[k - 1])
+        };
+        Axis::new((0..count).map(at).collect())
+    }
 }
 
 /// An azimuth on half the circle.
@@ -51,16 +114,14 @@ pub fn azimuth_interpolation(from: &[Azimuth], to: &[Azimuth]) -> Vec<f32> {
 }
 
 impl Grid {
-    /// The grid of a quality level for air that ends at `top` [km] over ground of `radius` [km], and the coarser one on which low orders are iterated.
-    pub fn new(numbers: &Numbers, radius: f64, top: f64) -> [Self; 2] {
-        let spread = |count: usize| {
-            let last = (count - 1) as f64;
-            Axis::new((0..count).map(|i| top * (i as f64 / last).powf(2.2)).collect())
-        };
+    /// The grid of a quality level for the air of `profile`, and the coarser one on which low orders are iterated.
+    pub fn new(numbers: &Numbers, profile: &OpticalProfile) -> [Self; 2] {
+        let radius = profile.planet_radius_km;
+        let measure = Measure::new(profile);
         let make = |altitudes: usize, solar_zenith_angles: usize| {
             let zeniths = ZenithAxis::new(solar_zenith_angles);
             let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
-            Self { altitudes: spread(altitudes), shells: spread(numbers.shells), zeniths, sun, radius }
+            Self { altitudes: measure.spread(altitudes), shells: measure.spread(numbers.shells), zeniths, sun, radius }
         };
         [
             make(numbers.altitudes, numbers.solar_zenith_angles),

@@ -4,7 +4,7 @@
 //! a strength: integral of T(view) sigma T(Sun) dt / 4 pi. Strengths are smooth in direction even where the phase function is sharp.
 
 use super::air::Air;
-use super::lanes::{Lanes, add_product, add_scaled, splat};
+use super::lanes::{Lanes, add_product, add_scaled, exp_one, splat};
 use super::ray::Ray;
 use super::sunlight::Sunlight;
 use super::suns::SunOnRay;
@@ -38,33 +38,54 @@ pub fn add_strengths<const N: usize>(
     }
 }
 
-/// The same for one position of the Sun, and after each strength the path: the mean over what is scattered of the scattering optical depth, by the same component, that the light passes on its
-/// way to the point and from there, times the strength.
+/// Parts of the light that a component scatters once.
+pub const PARTS: usize = 3;
+
+/// For one position of the Sun and each component adds three parts: the strength of scattering without the forward peak; the strength of all scattering in the light that comes straight
+/// from the Sun (`direct`: its transmittance) and straight to the observer; and the latter times the path, the scattering optical depth, by the same component, that the light passes on
+/// its way to the point and from there.
 #[inline(always)]
 pub fn add_strengths_and_paths<const N: usize>(
     air: &Air<N>,
-    sunlight: &Sunlight<N>,
+    (sunlight, direct): (&Sunlight<N>, Option<&Sunlight<N>>),
     ray: &Ray<N>,
     sun: &SunOnRay,
     parts: &mut [Lanes<N>],
 ) {
     let mut passed = vec![splat::<N>(0.0); air.scatterers().len()];
+    let mut forward_depth = splat::<N>(0.0);
     for point in &ray.points {
         let cosine = sun.zenith_cosine(point.distance, point.radius);
         let sunlit = sunlight.over_disc(point.altitude, cosine);
+        let straight = direct.and_then(|direct| direct.over_disc(point.altitude, cosine));
         let mass = slant(cosine) as f32;
-        for ((scatterer, passed), part) in air.scatterers().iter().zip(&mut passed).zip(parts.chunks_exact_mut(2)) {
+        let mut passing = splat::<N>(0.0);
+        for ((scatterer, passed), part) in air.scatterers().iter().zip(&mut passed).zip(parts.chunks_exact_mut(PARTS)) {
             let coefficient = scatterer.coefficient(point.place);
             if let Some(light) = &sunlit {
-                let above = scatterer.above(point.place);
                 for n in 0..N {
-                    let strength = light[n] * point.weight[n] * coefficient[n] * (0.25 / PI) as f32;
-                    part[0][n] += strength;
-                    part[1][n] += strength * (passed[n] + 0.5 * coefficient[n] * point.length + mass * above[n]);
+                    part[0][n] += light[n] * point.weight[n] * coefficient[n] * (0.25 / PI) as f32;
                 }
             }
-            add_scaled(passed, point.length, &coefficient);
+            let mut whole = coefficient;
+            for n in 0..N {
+                whole[n] /= 1.0 - scatterer.forward[n];
+            }
+            if let Some(light) = &straight {
+                let above = scatterer.above(point.place);
+                for n in 0..N {
+                    let depth = forward_depth[n] + 0.5 * point.length * scatterer.forward[n] * whole[n];
+                    let strength = light[n] * point.weight[n] * exp_one(-depth) * whole[n] * (0.25 / PI) as f32;
+                    part[1][n] += strength;
+                    part[2][n] += strength * (passed[n] + 0.5 * whole[n] * point.length + mass * above[n]);
+                }
+            }
+            add_scaled(passed, point.length, &whole);
+            for n in 0..N {
+                passing[n] += point.length * scatterer.forward[n] * whole[n];
+            }
         }
+        add_scaled(&mut forward_depth, 1.0, &passing);
     }
 }
 

@@ -44,8 +44,10 @@ const AZIMUTHS_PER_DEGREE: f64 = 1.5;
 pub struct Block {
     /// The air.
     pub air: Air<LANES>,
-    /// Transmittance to the Sun.
+    /// Transmittance to the Sun, forward peaks taken for transmitted.
     pub sunlight: Sunlight<LANES>,
+    /// Transmittance to the Sun as it is, if there are forward peaks.
+    pub direct: Option<Sunlight<LANES>>,
     /// Light scattered at least once.
     pub field: Relative<LANES>,
 }
@@ -82,7 +84,7 @@ impl<'a> Target<'a> {
 /// # Errors
 /// [`crate::Error::Cancelled`].
 pub fn solve(
-    air: Air<LANES>,
+    (air, direct): (Air<LANES>, Option<Sunlight<LANES>>),
     grid: &Grid,
     iteration_grid: &Grid,
     numbers: &Numbers,
@@ -127,7 +129,7 @@ pub fn solve(
         source_grid = grid;
     }
     let field = Relative::new(&field);
-    Ok(Block { air, sunlight, field })
+    Ok(Block { air, sunlight, direct, field })
 }
 
 /// The part of the progress that one application of the operator makes.

@@ -116,7 +116,8 @@ mod tests {
 
     #[test]
     fn the_sun_on_a_ray_is_where_vectors_say() {
-        let [grid, _] = Grid::new(&Quality::Draft.numbers(), 6371.0, 100.0);
+        let [grid, _] =
+            Grid::new(&Quality::Draft.numbers(), &crate::atmosphere::AirParameters::default().optical_profile(&[550.0]).unwrap());
         for (mu, azimuth, zenith) in [(0.3, 0.7, 0.9), (1.0, 0.4, 1.5), (-0.2, 3.0, 1.7), (0.05, 0.0, 0.2)] {
             let (r0, t): (f64, f64) = (6371.0, 250.0);
             let s = f64::sqrt(1.0 - mu * mu);

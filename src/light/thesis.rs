@@ -9,7 +9,7 @@
 //! drawn from a table of the inverse of Rayleigh's phase function; haze takes no part in multiple scattering ("it makes a small
 //! contribution and introduces a vast amount of errors"). Since directions are drawn by P, P is not multiplied once more, as eq. 9 taken by the letter would.
 //!
-//! Where the thesis leaves a choice: eq. 10 with s = 1 has steps of the mean free path, which are no "small random length": s is 0.1 by default. A secondary ray is a march
+//! Where the thesis leaves a choice: eq. 10 with s = 1 has steps of the mean free path, which are no "small random length": s is 0.25 by default, with one secondary ray, because a probe asks in a dozen directions for each pixel. A secondary ray is a march
 //! like the first, whose own secondary rays end after `bounces`. The Sun is a point, the ground is black.
 //!
 //! # Bias, measured
@@ -44,7 +44,7 @@ pub struct ThesisOptions {
 
 impl Default for ThesisOptions {
     fn default() -> Self {
-        Self { samples: 1, step: 0.1, secondary_rays: 4, bounces: 1 }
+        Self { samples: 1, step: 0.25, secondary_rays: 1, bounces: 1 }
     }
 }
 

@@ -12,7 +12,7 @@ use super::SkyLight;
 use super::disc::Disc;
 use super::filter::PolarisingFilter;
 use crate::error::Result;
-use crate::light::{AngularFunctions, Axis, Gathered, LightField, Observer};
+use crate::light::{AngularFunctions, Axis, Gathered, LightField, Observer, Once};
 use crate::progress::{Parts, Progress};
 use crate::quality::Numbers;
 use multiversion::multiversion;
@@ -158,14 +158,16 @@ impl Terms {
     /// Adds the fields, as XYZ, of one gathered direction to `out`.
     fn push_fields(&self, gathered: &Gathered, azimuth: usize, weights: &[[f64; 3]], out: &mut Vec<[f32; 3]>) {
         for (c, functions) in self.functions.iter().enumerate() {
-            let (strength, path) = (gathered.strength(azimuth, c), gathered.path(azimuth, c));
+            let (strength, direct) = (gathered.strength(azimuth, c), gathered.direct_strength(azimuth, c));
+            let path = gathered.path(azimuth, c);
             let mut sums = vec![[0.0; 3]; functions.len()];
             let mut shares = vec![0.0; functions.len()];
             for (w, weight) in weights.iter().enumerate() {
-                functions.weights(w, f64::from(path[w]), &mut shares);
+                let [strength, direct_strength, path] = [strength, direct, path].map(|values| f64::from(values[w]));
+                functions.weights(w, &Once { strength, direct_strength, path }, &mut shares);
                 for (sum, share) in sums.iter_mut().zip(&shares) {
                     for k in 0..3 {
-                        sum[k] += share * f64::from(strength[w]) * weight[k];
+                        sum[k] += share * weight[k];
                     }
                 }
             }

@@ -14,7 +14,7 @@ mod flight;
 mod lobes;
 mod tables;
 
-pub(super) use flight::{Ending, Flight, Ray};
+pub(super) use flight::{Ending, Flight, Sunshine};
 pub(super) use lobes::Lobes;
 
 use super::medium::Medium;

@@ -2,10 +2,10 @@
 //!
 //! At every vertex a path looks at the Sun (next event estimation). The next direction comes from a mixture of the phase functions, of the phase functions
 //! turned about the Sun (so that two small turns into the aureole leave no rare, heavy path), and of the guide; the next distance
-//! from the guide, or else half from the collisions and half uniform. Weights are the physical density over that of the mixture.
+//! from the guide, or else from the collisions. Weights are the physical density over that of the mixture.
 
 use super::disc::Disc;
-use super::guide::{Ending, Flight, Guide, Lobes, Ray};
+use super::guide::{Ending, Flight, Guide, Lobes, Sunshine};
 use super::medium::{Medium, Place};
 use super::sampling::{Random, around, lambertian};
 use super::shells::{Chord, End};
@@ -13,7 +13,7 @@ use super::stokes::{Basis, Mueller, Stokes, basis};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Paths without a guide play Russian roulette once their weight has fallen below this part of what it was after the first event,
+/// Paths without a guide play Russian roulette once their strength has fallen below this part of what it was after the first event,
 const ROULETTE_SHARE: f64 = 0.2;
 
 /// and not before this number of events.
@@ -22,6 +22,9 @@ const ROULETTE_EVENTS: usize = 3;
 /// Share of the first directions drawn about the Sun, where the Sun is up; it halves at every event, because weights that vary at each of many events
 /// would end in few heavy paths.
 const SUN_SHARE: f64 = 0.4;
+
+/// Share of uniform distances of paths without a guide.
+const BLIND_UNIFORM_SHARE: f64 = 0.2;
 
 /// Sine of the depth below the horizon to which the Sun counts as up.
 const SUN_DEPTH: f64 = 0.03;
@@ -51,7 +54,7 @@ struct Tip {
     /// What Stokes vectors seen here become at the observer.
     weight: Mueller,
     events: usize,
-    roulette_weight: f64,
+    roulette_strength: f64,
 }
 
 /// Draws paths; holds the memory that they need.
@@ -76,8 +79,8 @@ impl<'a> Walker<'a> {
     /// The value of one random path, with all its branches.
     pub fn path(&mut self, random: &mut Random) -> Stokes {
         let (position, direction) = (self.scene.start, self.scene.view);
-        let (weight, events, roulette_weight) = (Mueller::IDENTITY, 0, 0.0);
-        self.tips.push(Tip { position, direction, basis: basis(direction), weight, events, roulette_weight });
+        let (weight, events, roulette_strength) = (Mueller::IDENTITY, 0, 0.0);
+        self.tips.push(Tip { position, direction, basis: basis(direction), weight, events, roulette_strength });
         let mut value = [0.0; 3];
         while let Some(tip) = self.tips.pop() {
             self.advance(tip, &mut value, random);
@@ -107,8 +110,9 @@ impl<'a> Walker<'a> {
                     add(value, light, &tip.weight.applied_to(&once));
                 }
             }
-            let source = |guide: &Guide| medium.scattering(place) * guide.mean_intensity_at(altitude, sun_zenith_cosine);
-            (copies, share) = self.population(&mut tip, source, random);
+            let strength = tip.weight.intensity() * medium.scattering(place);
+            let light = |guide: &Guide| guide.mean_intensity_at(altitude, sun_zenith_cosine);
+            (copies, share) = self.population(&mut tip, strength, light, random);
             for _ in 0..copies {
                 let Some((next, density)) = self.turn(place, altitude, up, &tip, random) else { return };
                 let basis = basis(next);
@@ -123,10 +127,9 @@ impl<'a> Walker<'a> {
             if light > 0.0 && tip.weight.intensity() > 0.0 {
                 add(value, light * medium.sunlight(position, sun), &tip.weight.applied_to(&[1.0, 0.0, 0.0]));
             }
-            let albedo = medium.ground_albedo;
-            let source =
-                |guide: &Guide| if albedo > 0.0 { guide.ground_radiance_by_sky(sun_zenith_cosine) / albedo } else { 0.0 };
-            (copies, share) = self.population(&mut tip, source, random);
+            let strength = tip.weight.intensity();
+            let light = |guide: &Guide| guide.ground_radiance_by_sky(sun_zenith_cosine) / medium.ground_albedo;
+            (copies, share) = self.population(&mut tip, strength, light, random);
             for _ in 0..copies {
                 let (next, ratio) = self.leave_ground(up, random);
                 self.push(&tip, position, next, basis(next), tip.weight.scaled(share * ratio));
@@ -136,8 +139,8 @@ impl<'a> Walker<'a> {
 
     fn push(&mut self, from: &Tip, position: DVec3, direction: DVec3, basis: Basis, weight: Mueller) {
         if weight.intensity() > 0.0 {
-            let (events, roulette_weight) = (from.events + 1, from.roulette_weight);
-            self.tips.push(Tip { position, direction, basis, weight, events, roulette_weight });
+            let (events, roulette_strength) = (from.events + 1, from.roulette_strength);
+            self.tips.push(Tip { position, direction, basis, weight, events, roulette_strength });
         }
     }
 
@@ -150,15 +153,13 @@ impl<'a> Walker<'a> {
         let sun_cosine = tip.direction.dot(sun);
         self.phases.clear();
         self.phases.extend(medium.scatterers.iter().map(|s| s.phase(medium.wavelength, sun_cosine)));
-        let ray = Ray {
-            chord: *chord,
-            length,
-            ends_on_ground: end == End::Ground,
-            sun_zenith_cosine: tip.position.dot(sun) / chord.radius,
-            sun_cosine,
+        let sunshine = Sunshine {
+            zenith_cosine: tip.position.dot(sun) / chord.radius,
+            cosine: sun_cosine,
             phases: if tip.events > 0 { Some(&self.phases) } else { None },
         };
-        let expected = self.flight.aim(guide, &ray);
+        self.flight.trace(guide, chord, length, end == End::Ground);
+        let expected = self.flight.aim(guide, &sunshine);
         if tip.events == 0 {
             self.expected = expected;
         }
@@ -170,14 +171,14 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// How many paths go on from a vertex, and the factor of their weight. `source` is what the guide expects of the light still to be found.
-    fn population(&self, tip: &mut Tip, source: impl Fn(&Guide) -> f64, random: &mut Random) -> (usize, f64) {
-        let weight = tip.weight.intensity();
-        if weight <= 0.0 {
+    /// How many paths go on from a vertex, and the factor of their weight. `strength` is what they are worth: weight times scattering coefficient, or times albedo;
+    /// `light` is the mean radiance around the vertex that the guide expects.
+    fn population(&self, tip: &mut Tip, strength: f64, light: impl Fn(&Guide) -> f64, random: &mut Random) -> (usize, f64) {
+        if strength <= 0.0 {
             return (0, 0.0);
         }
         if let Some(guide) = self.guide.filter(|_| self.expected > 0.0) {
-            let wanted = weight * source(guide) / self.expected;
+            let wanted = strength * light(guide) / self.expected;
             if (1.0 / WINDOW..=WINDOW).contains(&wanted) {
                 return (1, 1.0);
             }
@@ -185,9 +186,9 @@ impl<'a> Walker<'a> {
             return ((mean + random.uniform()) as usize, 1.0 / mean);
         }
         if tip.events == 0 {
-            tip.roulette_weight = ROULETTE_SHARE * weight;
-        } else if tip.events + 1 >= ROULETTE_EVENTS && weight < tip.roulette_weight {
-            let chance = weight / tip.roulette_weight;
+            tip.roulette_strength = ROULETTE_SHARE * strength;
+        } else if tip.events + 1 >= ROULETTE_EVENTS && strength < tip.roulette_strength {
+            let chance = strength / tip.roulette_strength;
             return (usize::from(random.uniform() < chance), 1.0 / chance);
         }
         (1, 1.0)
@@ -244,8 +245,8 @@ impl<'a> Walker<'a> {
     }
 }
 
-/// Without a guide: distances of rays to the ground follow the collisions; those to space do by half and are uniform by half, because high, thin air may be
-/// all that is lit, and never leave the air.
+/// Without a guide: distances follow the collisions; those of rays to space never leave the air, and a few of them are uniform, because high,
+/// thin air may be all that is lit.
 fn fly_blindly(medium: &Medium, chord: &Chord, end: End, length: f64, random: &mut Random) -> Option<(Option<f64>, f64)> {
     if end == End::Ground {
         let depth = -(1.0 - random.uniform()).ln();
@@ -257,14 +258,14 @@ fn fly_blindly(medium: &Medium, chord: &Chord, end: End, length: f64, random: &m
     if collided <= 0.0 {
         return None;
     }
-    let distance = if random.uniform() < 0.5 {
+    let distance = if random.uniform() >= BLIND_UNIFORM_SHARE {
         medium.shells.distance_at(chord, -(-random.uniform() * collided).ln_1p(), length).unwrap_or(length)
     } else {
         length * random.uniform()
     };
     let transmittance = (-medium.shells.optical_depth(chord, distance)).exp();
     let collisions = medium.extinction(medium.shells.locate(chord.altitude_at(distance))) * transmittance;
-    Some((Some(distance), transmittance / (0.5 * collisions / collided + 0.5 / length)))
+    Some((Some(distance), transmittance / ((1.0 - BLIND_UNIFORM_SHARE) * collisions / collided + BLIND_UNIFORM_SHARE / length)))
 }
 
 fn add(value: &mut Stokes, factor: f64, term: &Stokes) {

@@ -1,7 +1,7 @@
 //! Making the guide: successive orders of scattering on a coarse grid.
 
 use super::bins::{AZIMUTHS, BINS, ZENITHS, azimuth_range, solid_angle, zenith_range};
-use super::flight::{Flight, Ray};
+use super::flight::{Flight, Sunshine};
 use super::tables::horizon_cosine;
 use super::{Guide, LEVELS, SUNS, sun_cosine};
 use crate::light::path_tracer::medium::Medium;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Orders of scattering that are summed.
-const ORDERS: usize = 9;
+const ORDERS: usize = 7;
 
 /// A phase function counts as at most this: paths seek its peak by themselves.
 const LARGEST_PHASE: f64 = 6.0;
@@ -23,46 +23,55 @@ impl Guide {
     pub fn new(medium: &Medium) -> Self {
         let mut guide = Self::new_empty(medium);
         let mut radiance = Vec::new();
-        for _ in 0..ORDERS {
-            radiance = guide.radiance_in_bins(medium);
+        for order in 1..=ORDERS {
+            radiance = guide.radiance_in_bins(medium, if order < ORDERS { 1 } else { 2 });
             guide.take_means(medium, &radiance);
         }
         guide.take_bins(&radiance);
         guide
     }
 
-    /// Radiance in the middle of all bins, (level, zenith, Sun, azimuth): rows share the geometry of their ray.
-    fn radiance_in_bins(&self, medium: &Medium) -> Vec<f64> {
+    /// Mean radiance in all bins, (level, zenith, Sun, azimuth), from `parts` zenith angles and as many azimuths in each.
+    fn radiance_in_bins(&self, medium: &Medium, parts: usize) -> Vec<f64> {
         let rows: Vec<Vec<f64>> = (0..LEVELS * ZENITHS)
             .into_par_iter()
             .map(|row| {
                 let altitude = self.altitude(row / ZENITHS);
                 let (low, high) = zenith_range(row % ZENITHS, horizon_cosine(self.tables.radius, altitude));
                 let mut out = vec![0.0; SUNS * AZIMUTHS];
-                if high <= low {
-                    return out;
-                }
-                let cosine = 0.5 * (low + high);
-                let chord = Chord { altitude, radius: self.tables.radius + altitude, cosine };
-                let (end, length) = medium.shells.end(&chord);
-                let mut flight = Flight::default();
-                let mut phases = vec![0.0; medium.scatterers.len()];
-                for (k, value) in out.iter_mut().enumerate() {
-                    let sun_zenith_cosine = sun_cosine(k / AZIMUTHS);
-                    let (near, far) = azimuth_range(k % AZIMUTHS);
-                    let sines = (1.0 - sun_zenith_cosine.powi(2)).max(0.0).sqrt() * (1.0 - cosine * cosine).max(0.0).sqrt();
-                    let sun_cosine = cosine * sun_zenith_cosine + sines * (0.5 * (near + far)).cos();
-                    for (phase, scatterer) in phases.iter_mut().zip(&medium.scatterers) {
-                        *phase = scatterer.phase(medium.wavelength, sun_cosine).min(LARGEST_PHASE);
+                if high > low {
+                    for part in 0..parts {
+                        let cosine = low + (high - low) * (part as f64 + 0.5) / parts as f64;
+                        self.add_radiance(medium, altitude, cosine, parts, &mut out);
                     }
-                    let ends_on_ground = end == End::Ground;
-                    let ray = Ray { chord, length, ends_on_ground, sun_zenith_cosine, sun_cosine, phases: Some(&phases) };
-                    *value = flight.radiance(self, &ray);
                 }
                 out
             })
             .collect();
         rows.concat()
+    }
+
+    /// Adds the radiance at zenith cosine `cosine`, (Sun, azimuth), over the number of parts. All share the geometry of the ray.
+    fn add_radiance(&self, medium: &Medium, altitude: f64, cosine: f64, parts: usize, out: &mut [f64]) {
+        let chord = Chord { altitude, radius: self.tables.radius + altitude, cosine };
+        let (end, length) = medium.shells.end(&chord);
+        let mut flight = Flight::default();
+        flight.trace(self, &chord, length, end == End::Ground);
+        let mut phases = vec![0.0; medium.scatterers.len()];
+        for (k, value) in out.iter_mut().enumerate() {
+            let zenith_cosine = sun_cosine(k / AZIMUTHS);
+            let sines = ((1.0 - zenith_cosine * zenith_cosine) * (1.0 - cosine * cosine)).max(0.0).sqrt();
+            let (near, far) = azimuth_range(k % AZIMUTHS);
+            for part in 0..parts {
+                let azimuth = near + (far - near) * (part as f64 + 0.5) / parts as f64;
+                let sun_cosine = cosine * zenith_cosine + sines * azimuth.cos();
+                for (phase, scatterer) in phases.iter_mut().zip(&medium.scatterers) {
+                    *phase = scatterer.phase(medium.wavelength, sun_cosine).min(LARGEST_PHASE);
+                }
+                let (air, ground) = flight.light(self, &Sunshine { zenith_cosine, cosine: sun_cosine, phases: Some(&phases) });
+                *value += (air + ground) / (parts * parts) as f64;
+            }
+        }
     }
 
     fn altitude(&self, level: usize) -> f64 {

@@ -7,6 +7,7 @@
 use super::Guide;
 use crate::light::path_tracer::sampling::Random;
 use crate::light::path_tracer::shells::Chord;
+use std::f64::consts::PI;
 
 /// Share of flights that follow the collisions.
 const COLLISION_SHARE: f64 = 0.1;
@@ -14,17 +15,15 @@ const COLLISION_SHARE: f64 = 0.1;
 /// Share of flights with uniform distances.
 const UNIFORM_SHARE: f64 = 0.003;
 
-/// A ray seen from its start: what the guide has to know of it.
-pub(in crate::light::path_tracer) struct Ray<'a> {
-    pub chord: Chord,
-    /// Length [km].
-    pub length: f64,
-    /// Whether it ends on the ground.
-    pub ends_on_ground: bool,
-    /// Cosine of the Sun's zenith angle at the start.
-    pub sun_zenith_cosine: f64,
+/// The light at a cut counts as at least this part of that at the next cuts: the Earth's shadow may end right after it.
+const NEIGHBOUR_SHARE: f64 = 0.3;
+
+/// Where the Sun is for a ray.
+pub(in crate::light::path_tracer) struct Sunshine<'a> {
+    /// Cosine of the Sun's zenith angle at the start of the ray.
+    pub zenith_cosine: f64,
     /// Cosine of the angle between the ray and the Sun.
-    pub sun_cosine: f64,
+    pub cosine: f64,
     /// Phase functions of the components at that angle; without them the Sun's light that the air scatters once is left out.
     pub phases: Option<&'a [f64]>,
 }
@@ -33,6 +32,10 @@ pub(in crate::light::path_tracer) struct Ray<'a> {
 #[derive(Clone, Copy, Default)]
 struct Cut {
     distance: f64,
+    altitude: f64,
+    /// Coordinate of the altitude in the guide's tables.
+    level: f64,
+    transmittance: f64,
     /// Light from here, per length [km-1].
     light: f64,
     /// Extinction coefficient times transmittance [km-1].
@@ -54,21 +57,65 @@ pub(in crate::light::path_tracer) enum Ending {
 pub(in crate::light::path_tracer) struct Flight {
     cuts: Vec<Cut>,
     distances: Vec<f64>,
+    radius: f64,
+    length: f64,
+    ends_on_ground: bool,
     ground_probability: f64,
 }
 
 impl Flight {
-    /// Prepares for `ray`; returns the radiance [sr-1] that the guide expects at its start.
-    pub fn aim(&mut self, guide: &Guide, ray: &Ray) -> f64 {
-        let (air, ground, transmittance) = self.look(guide, ray);
-        let expected = air + ground;
-        let collided: f64 = self.sum(|cut| cut.collisions);
-        let collided = collided + if ray.ends_on_ground { transmittance } else { 0.0 };
-        let wanted = if expected > 0.0 { 1.0 / expected } else { 0.0 };
-        let blind = if collided > 0.0 { COLLISION_SHARE / collided } else { 0.0 };
-        let uniform = if ray.length > 0.0 { UNIFORM_SHARE / ray.length } else { 0.0 };
+    /// Cuts the ray that starts with `chord` and has a length [km].
+    pub fn trace(&mut self, guide: &Guide, chord: &Chord, length: f64, ends_on_ground: bool) {
+        guide.cut(chord, length, ends_on_ground, &mut self.distances);
+        (self.radius, self.length, self.ends_on_ground) = (chord.radius, length, ends_on_ground);
+        self.cuts.clear();
+        let (mut depth, mut before) = (0.0, (0.0, 0.0));
+        for &distance in &self.distances {
+            let altitude = chord.altitude_at(distance).max(0.0);
+            let level = guide.tables.level(altitude);
+            let extinction = guide.tables.coefficients(level).extinction();
+            depth += 0.5 * (before.0 + extinction) * (distance - before.1);
+            before = (extinction, distance);
+            let transmittance = (-depth).exp();
+            let collisions = transmittance * extinction;
+            self.cuts.push(Cut { distance, altitude, level, transmittance, collisions, ..Cut::default() });
+        }
+    }
+
+    /// Finds the light along the ray; returns the radiances [sr-1] that the guide expects of the air and of the ground at its start.
+    pub fn light(&mut self, guide: &Guide, sunshine: &Sunshine) -> (f64, f64) {
+        let mut zenith_cosine = sunshine.zenith_cosine;
         for cut in &mut self.cuts {
-            cut.density = wanted * cut.light + blind * cut.collisions + uniform;
+            let radius = guide.tables.radius + cut.altitude;
+            zenith_cosine = (self.radius * sunshine.zenith_cosine + cut.distance * sunshine.cosine) / radius;
+            let coefficients = guide.tables.coefficients(cut.level);
+            let mut source = coefficients.scattering() * guide.mean_intensity(cut.level, zenith_cosine);
+            if let Some(phases) = sunshine.phases {
+                let sunlight = guide.tables.sunlight(cut.level, cut.altitude, zenith_cosine) / (4.0 * PI);
+                if sunlight > 0.0 {
+                    let once: f64 = phases.iter().enumerate().map(|(c, phase)| phase * coefficients.scatterer(c)).sum();
+                    source += once * sunlight;
+                }
+            }
+            cut.light = cut.transmittance * source;
+        }
+        let ground = if self.ends_on_ground { self.transmittance() * guide.ground_radiance(zenith_cosine) } else { 0.0 };
+        (self.integral(|cut| cut.light), ground)
+    }
+
+    /// Makes the distribution after [`Self::trace`]; returns the radiance [sr-1] that the guide expects at the start.
+    pub fn aim(&mut self, guide: &Guide, sunshine: &Sunshine) -> f64 {
+        let (air, ground) = self.light(guide, sunshine);
+        let expected = air + ground;
+        let landed = if self.ends_on_ground { self.transmittance() } else { 0.0 };
+        let ended = self.integral(|cut| cut.collisions) + landed;
+        let wanted = if expected > 0.0 { 1.0 / expected } else { 0.0 };
+        let blind = if ended > 0.0 { COLLISION_SHARE / ended } else { 0.0 };
+        let uniform = if self.length > 0.0 { UNIFORM_SHARE / self.length } else { 0.0 };
+        for i in 0..self.cuts.len() {
+            let beside = self.cuts[i.saturating_sub(1)].light.max(self.cuts[(i + 1).min(self.cuts.len() - 1)].light);
+            let cut = &mut self.cuts[i];
+            cut.density = wanted * cut.light.max(NEIGHBOUR_SHARE * beside) + blind * cut.collisions + uniform;
         }
         let mut sum = 0.0;
         for i in 1..self.cuts.len() {
@@ -76,7 +123,7 @@ impl Flight {
             sum += 0.5 * (a.density + b.density) * (b.distance - a.distance);
             self.cuts[i].cumulative = sum;
         }
-        let ground = if ray.ends_on_ground { wanted * ground + blind * transmittance + UNIFORM_SHARE } else { 0.0 };
+        let ground = if self.ends_on_ground { wanted * ground + blind * landed + UNIFORM_SHARE } else { 0.0 };
         let scale = 1.0 / (sum + ground);
         for cut in &mut self.cuts {
             cut.density *= scale;
@@ -106,42 +153,11 @@ impl Flight {
         Some(Ending::Air { distance, density: a.density + x * (b.density - a.density) })
     }
 
-    /// Radiance [sr-1] that the guide expects at the start of `ray`.
-    pub fn radiance(&mut self, guide: &Guide, ray: &Ray) -> f64 {
-        let (air, ground, _) = self.look(guide, ray);
-        air + ground
+    fn transmittance(&self) -> f64 {
+        self.cuts.last().map_or(1.0, |cut| cut.transmittance)
     }
 
-    /// Fills in the light at the cuts; returns that of the air, that of the ground and the transmittance of the whole ray.
-    fn look(&mut self, guide: &Guide, ray: &Ray) -> (f64, f64, f64) {
-        guide.cut(&ray.chord, ray.length, ray.ends_on_ground, &mut self.distances);
-        self.cuts.clear();
-        let (mut depth, mut before) = (0.0, (0.0, 0.0));
-        let mut sun_zenith_cosine = ray.sun_zenith_cosine;
-        for &distance in &self.distances {
-            let altitude = ray.chord.altitude_at(distance).max(0.0);
-            let level = guide.tables.level(altitude);
-            sun_zenith_cosine =
-                (ray.chord.radius * ray.sun_zenith_cosine + distance * ray.sun_cosine) / (guide.tables.radius + altitude);
-            let coefficients = guide.tables.coefficients(level);
-            let extinction = coefficients.extinction();
-            depth += 0.5 * (before.0 + extinction) * (distance - before.1);
-            before = (extinction, distance);
-            let transmittance = (-depth).exp();
-            let mut source = coefficients.scattering() * guide.mean_intensity(level, sun_zenith_cosine);
-            if let Some(phases) = ray.phases {
-                let once: f64 = phases.iter().enumerate().map(|(c, phase)| phase * coefficients.scatterer(c)).sum();
-                source += once * guide.tables.sunlight(level, altitude, sun_zenith_cosine) / (4.0 * std::f64::consts::PI);
-            }
-            let light = transmittance * source;
-            self.cuts.push(Cut { distance, light, collisions: transmittance * extinction, ..Cut::default() });
-        }
-        let transmittance = (-depth).exp();
-        let ground = if ray.ends_on_ground { transmittance * guide.ground_radiance(sun_zenith_cosine) } else { 0.0 };
-        (self.sum(|cut| cut.light), ground, transmittance)
-    }
-
-    fn sum(&self, value: impl Fn(&Cut) -> f64) -> f64 {
+    fn integral(&self, value: impl Fn(&Cut) -> f64) -> f64 {
         self.cuts.windows(2).map(|pair| 0.5 * (value(&pair[0]) + value(&pair[1])) * (pair[1].distance - pair[0].distance)).sum()
     }
 }
@@ -166,9 +182,9 @@ mod tests {
             let chord = Chord { altitude, radius: medium.shells.planet_radius + altitude, cosine };
             let (end, length) = medium.shells.end(&chord);
             let phases = vec![1.0; medium.scatterers.len()];
-            let ends_on_ground = end == End::Ground;
-            let ray = Ray { chord, length, ends_on_ground, sun_zenith_cosine: sun, sun_cosine: 0.9, phases: Some(&phases) };
-            assert!(flight.aim(&guide, &ray) > 0.0);
+            flight.trace(&guide, &chord, length, end == End::Ground);
+            let sunshine = Sunshine { zenith_cosine: sun, cosine: 0.9, phases: Some(&phases) };
+            assert!(flight.aim(&guide, &sunshine) > 0.0);
             let n = 40_000;
             let (mut sum, mut squares, mut grounded) = (0.0, 0.0, 0.0);
             for _ in 0..n {
