@@ -327,13 +327,13 @@ fn angular_factors(terms: &Terms, places: &Places, factors: &mut [[f32; CHUNK]])
     let cosines = (places.altitude.cos() * places.sun_altitude.cos()) as f32;
     let mut haversines = [0.0_f32; CHUNK];
     let mut from_sun = [0.0_f32; CHUNK];
-    for i in 0..count {
-        let turns = (places.azimuths[i] - places.sun_azimuth) * (1.0 / TAU);
-        from_sun[i] = (turns - turns.round()) as f32;
+    for (from_sun, azimuth) in from_sun.iter_mut().zip(places.azimuths) {
+        let turns = (azimuth - places.sun_azimuth) * (1.0 / TAU);
+        *from_sun = (turns - turns.round()) as f32;
     }
-    for i in 0..CHUNK {
-        let sine = half_sine(from_sun[i]);
-        haversines[i] = height + cosines * sine * sine;
+    for (haversine, &from_sun) in haversines.iter_mut().zip(&from_sun) {
+        let sine = half_sine(from_sun);
+        *haversine = height + cosines * sine * sine;
     }
     let mut first = 0;
     for functions in terms.functions.iter() {

@@ -126,9 +126,9 @@ impl<'a> Circles<'a> {
         let width = |i: usize| self.positions[i + 1] - self.positions[i];
         for _ in 0..pending.len() {
             let before = pending.to_vec();
-            for i in 0..pending.len() {
+            for (i, pending) in pending.iter_mut().enumerate() {
                 let wider = |other: usize| before[other] && width(i) > 1.5 * width(other);
-                pending[i] |= (i > 0 && wider(i - 1)) || (i + 1 < before.len() && wider(i + 1));
+                *pending |= (i > 0 && wider(i - 1)) || (i + 1 < before.len() && wider(i + 1));
             }
             if before == pending {
                 return;
