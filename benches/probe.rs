@@ -30,7 +30,7 @@ impl SkyLight for Plain {
 }
 
 fn dome() -> SkyDome {
-    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
     Sky::with_sun(30.0, 180.0, 0.0, air).unwrap().light(&Progress::silent()).unwrap()
 }
 

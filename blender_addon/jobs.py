@@ -22,6 +22,7 @@ class ProbeRequest:
     lamp_color_space: str  # of ProbeResult.sun_irradiance
     path: str  # file to write, absolute
     pack: bool  # move the file into the .blend afterwards
+    polarising_filter: dict | None = None  # keywords of skyprobe.PolarisingFilter
 
 
 @dataclass(frozen=True)
@@ -93,8 +94,14 @@ def compute(request, progress):
 
 def render(sky, request, progress):
     """Render and write the probe of the skyprobe.Sky `sky`, with the width, file and Sun of `request`."""
+    held = request.polarising_filter
     probe = sky.render(
-        width=request.width, scale="blender", color_space="lin_rec709", sun_disc=request.sun_in_map, progress=progress
+        width=request.width,
+        scale="blender",
+        color_space="lin_rec709",
+        sun_disc=request.sun_in_map,
+        polarising_filter=None if held is None else skyprobe.PolarisingFilter(**held),
+        progress=progress,
     )
     irradiance = sky.sun_irradiance_rgb(scale="blender", color_space=request.lamp_color_space)
     if not progress("write", 0.0):

@@ -27,6 +27,7 @@ def request_of(scene):
         lamp_color_space=compat.working_color_space(),
         path=os.path.join(_folder(settings), name),
         pack=settings.storage == "PACKED",
+        polarising_filter=properties.polarising_filter(settings),
     )
 
 

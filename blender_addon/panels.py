@@ -12,8 +12,8 @@ def draw(layout, scene):
     layout.use_property_split = True
     layout.use_property_decorate = False
     _draw_run(layout, scene, settings)
-    for name, title, section in SECTIONS:
-        header, body = layout.panel(f"skyprobe_{name}")
+    for name, title, section, closed in SECTIONS:
+        header, body = layout.panel(f"skyprobe_{name}", default_closed=closed)
         header.label(text=title)
         if body:
             section(body, settings)
@@ -56,16 +56,32 @@ def _draw_time(layout, settings):
 
 def _draw_air(layout, settings):
     layout.prop(settings, "preset")
-    layout.prop(settings, "aerosol")
     layout.prop(settings, "haze")
     if settings.haze != properties.OF_PRESET:
         layout.prop(settings, settings.haze)
-    row = layout.row(heading="Ozone (DU)")
-    row.prop(settings, "use_ozone", text="")
-    value = row.row()
-    value.active = settings.use_ozone
-    value.prop(settings, "ozone_du", text="")
     layout.prop(settings, "ground")
+
+
+def _draw_air_details(layout, settings):
+    layout.prop(settings, "aerosol")
+    for switch, name in properties.OPTIONAL_AIR:
+        row = layout.row(heading=settings.bl_rna.properties[name].name)
+        row.prop(settings, switch, text="")
+        value = row.row()
+        value.active = getattr(settings, switch)
+        value.prop(settings, name, text="")
+
+
+def _draw_filter(layout, settings):
+    layout.prop(settings, "filter_mode")
+    if settings.filter_mode == "NONE":
+        return
+    layout.prop(settings, "filter_strength", slider=True)
+    layout.prop(settings, "filter_angle")
+    if settings.filter_mode == "HELD":
+        column = layout.column(align=True)
+        column.prop(settings, "filter_altitude")
+        column.prop(settings, "filter_azimuth")
 
 
 def _draw_probe(layout, settings):
@@ -77,11 +93,14 @@ def _draw_probe(layout, settings):
         layout.prop(settings, "directory")
 
 
+# Name, title, what draws it, whether it is closed at first.
 SECTIONS = (
-    ("place", "Place", _draw_place),
-    ("time", "Time", _draw_time),
-    ("air", "Air", _draw_air),
-    ("probe", "Probe", _draw_probe),
+    ("place", "Place", _draw_place, False),
+    ("time", "Time", _draw_time, False),
+    ("air", "Air", _draw_air, False),
+    ("air_details", "Air in Detail", _draw_air_details, True),
+    ("filter", "Polarising Filter", _draw_filter, True),
+    ("probe", "Probe", _draw_probe, False),
 )
 
 

@@ -27,6 +27,8 @@ PRESETS = (
     ("maritime", "Maritime", "The open sea"),
     ("desert", "Desert", "Dusty air over sand"),
     ("antarctic", "Antarctic", "The clearest air there is, over snow"),
+    ("fog", "Fog", "A layer of fog over land"),
+    ("volcanic", "Volcanic", "A clear day after a great eruption: purple twilights"),
     ("thesis", "Thesis", "Simple haze without ozone, as in the thesis that this work began with"),
 )
 AEROSOLS = (
@@ -37,8 +39,12 @@ AEROSOLS = (
     ("continental_polluted", "Continental, Polluted", "Land near towns and industry"),
     ("urban", "Urban", "A large town: much soot"),
     ("maritime_clean", "Maritime, Clean", "Open sea: salt"),
+    ("maritime_polluted", "Maritime, Polluted", "Sea near inhabited coasts: salt and soot"),
+    ("maritime_tropical", "Maritime, Tropical", "Tropical sea: salt, little else"),
     ("desert", "Desert", "Mineral dust"),
+    ("arctic", "Arctic", "Far north in spring: haze from the continents"),
     ("antarctic", "Antarctic", "Droplets of sulphate"),
+    ("fog", "Fog", "Droplets of water in a layer with a top"),
     ("thesis", "Thesis", "Simple haze that only scatters"),
 )
 GROUNDS = (
@@ -51,6 +57,12 @@ GROUNDS = (
     ("sea", "Sea", "The open sea"),
     ("city", "City", "Roofs, streets, some trees"),
     ("asphalt", "Asphalt", "Worn asphalt"),
+)
+# Values of the air that a switch takes from the preset.
+OPTIONAL_AIR = (
+    ("use_humidity", "relative_humidity"),
+    ("use_ozone", "ozone_du"),
+    ("use_stratosphere", "stratospheric_aod550"),
 )
 
 
@@ -143,9 +155,9 @@ class SkyprobeSettings(bpy.types.PropertyGroup):
     )
     aod550: FloatProperty(
         name="Optical Depth",
-        description="Vertical optical depth of the particles at 550 nm: 0.05 very clear, 0.1 clear, 0.4 hazy",
+        description="Vertical optical depth of the particles at 550 nm: 0.05 very clear, 0.1 clear, 0.4 hazy, 2 and more fog",
         min=0.0,
-        max=5.0,
+        max=50.0,
         soft_max=1.0,
         default=0.1,
         precision=3,
@@ -163,8 +175,9 @@ class SkyprobeSettings(bpy.types.PropertyGroup):
     visibility_km: FloatProperty(
         name="Visibility (km)",
         description="Distance at which a dark object fades into the horizon, in kilometres",
-        min=1.0,
+        min=0.05,
         max=300.0,
+        soft_min=1.0,
         default=40.0,
         precision=1,
         step=100,
@@ -182,6 +195,33 @@ class SkyprobeSettings(bpy.types.PropertyGroup):
         default=300.0,
         precision=0,
         step=1000,
+    )
+    use_humidity: BoolProperty(
+        name="Set Humidity", description="Give the humidity with which the particles grow instead of the usual 80 %", default=False
+    )
+    relative_humidity: FloatProperty(
+        name="Humidity (%)",
+        description="Relative humidity: damp air makes the particles larger and the haze whiter",
+        min=0.0,
+        max=99.0,
+        default=80.0,
+        precision=0,
+        step=100,
+    )
+    use_stratosphere: BoolProperty(
+        name="Set Volcanic Haze",
+        description="Give the amount of volcanic haze in the stratosphere instead of leaving it to the preset",
+        default=False,
+    )
+    stratospheric_aod550: FloatProperty(
+        name="Volcanic Haze",
+        description="Vertical optical depth at 550 nm of volcanic haze in the stratosphere: 0.15 after the greatest eruptions",
+        min=0.0,
+        max=1.0,
+        soft_max=0.3,
+        default=0.15,
+        precision=3,
+        step=1,
     )
     ground: EnumProperty(
         name="Ground", description="What the land around reflects", items=GROUNDS, default=OF_PRESET
@@ -228,6 +268,46 @@ class SkyprobeSettings(bpy.types.PropertyGroup):
         ),
         default="LAMP",
     )
+    filter_mode: EnumProperty(
+        name="Filter",
+        description="Whether the sky is seen through a polarising filter",
+        items=(
+            ("NONE", "None", "No filter"),
+            ("VIEW", "Turns with the View", "In every direction the axis stands at the same angle from the vertical"),
+            ("HELD", "Held", "One piece of glass that is held towards a direction, as before a camera"),
+        ),
+        default="NONE",
+    )
+    filter_strength: FloatProperty(
+        name="Strength", description="0 no filter, 1 an ideal one", subtype="FACTOR", min=0.0, max=1.0, default=1.0
+    )
+    filter_angle: FloatProperty(
+        name="Angle",
+        description="Angle of the filter's axis from the vertical, clockwise as one sees it",
+        subtype="ANGLE",
+        min=-math.pi,
+        max=math.pi,
+        default=0.0,
+        step=100,
+    )
+    filter_altitude: FloatProperty(
+        name="Altitude",
+        description="Altitude above the horizon towards which the filter is held",
+        subtype="ANGLE",
+        min=-math.pi / 2.0,
+        max=math.pi / 2.0,
+        default=math.radians(20.0),
+        step=100,
+    )
+    filter_azimuth: FloatProperty(
+        name="Azimuth",
+        description="Azimuth from true north through east towards which the filter is held",
+        subtype="ANGLE",
+        min=-2.0 * math.pi,
+        max=2.0 * math.pi,
+        default=0.0,
+        step=100,
+    )
     storage: EnumProperty(
         name="Keep Probe",
         description="Where the picture of the sky is kept",
@@ -261,16 +341,27 @@ def air(settings):
             keywords[name] = getattr(settings, name)
     if settings.haze != OF_PRESET:
         keywords[settings.haze] = _as_typed(getattr(settings, settings.haze))
-    if settings.use_ozone:
-        keywords["ozone_du"] = _as_typed(settings.ozone_du)
+    for switch, name in OPTIONAL_AIR:
+        if getattr(settings, switch):
+            keywords[name] = _as_typed(getattr(settings, name))
+    return keywords
+
+
+def polarising_filter(settings):
+    """Return the keywords of skyprobe.PolarisingFilter, or None without a filter."""
+    if settings.filter_mode == "NONE":
+        return None
+    keywords = {"strength": _as_typed(settings.filter_strength), "angle_deg": _degrees(settings.filter_angle)}
+    if settings.filter_mode == "HELD":
+        keywords["held_towards_deg"] = (_degrees(settings.filter_altitude), _degrees(settings.filter_azimuth))
     return keywords
 
 
 def place(settings):
     """Return latitude, longitude [degrees] and elevation_m as keywords of skyprobe.Sky."""
     return {
-        "latitude": _as_typed(math.degrees(settings.latitude)),
-        "longitude": _as_typed(math.degrees(settings.longitude)),
+        "latitude": _degrees(settings.latitude),
+        "longitude": _degrees(settings.longitude),
         "elevation_m": _as_typed(settings.elevation_m),
     }
 
@@ -278,6 +369,11 @@ def place(settings):
 def _as_typed(value):
     """Return the number that the user typed: Blender keeps single precision, in which 0.1 is another and the poles lie beyond 90."""
     return round(value, 5)
+
+
+def _degrees(angle):
+    """Return an angle [radians] as the degrees that the user typed."""
+    return _as_typed(math.degrees(angle))
 
 
 def clock(settings):

@@ -23,7 +23,7 @@ fn probe_at(time: &str, air: &Arc<Atmosphere>) -> skyprobe::Result<Probe> {
 
 fn main() -> skyprobe::Result<()> {
     let start = Instant::now();
-    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Standard, false)?);
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Standard, true)?);
     let first = probe_at("2005-06-21T13:00:00+02:00", &air)?;
     println!("first probe, {} x {}, solve included: {:.2} s", first.width, first.height, start.elapsed().as_secs_f64());
     for time in ["2005-06-21T18:30:00+02:00", "2005-06-21T22:15:00+02:00"] {

@@ -45,6 +45,16 @@ fn wrong_input_is_one_line_and_exit_code_2_and_leaves_nothing() {
         (with(&SUN, &["--width", "-4", "-o", "a.exr"]), "width = -4: must be"),
         (with(&SUN, &["--scale", "nits", "-o", "a.exr"]), "scale = \"nits\": must be"),
         (with(&SUN, &["--exposure", "nan", "-o", "a.png"]), "exposure_stops = NaN: must be"),
+        (
+            with(&SUN, &["--polarising-filter", "2", "-o", "a.exr"]),
+            "polarising_filter.strength = 2: must be a number from 0 to 1",
+        ),
+        (with(&SUN, &["--filter-angle", "20", "-o", "a.exr"]), "polarising_filter = nothing: must be given"),
+        (with(&SUN, &["--polarising-filter", "1", "--filter-towards", "20", "-o", "a.exr"]), "filter_towards = 1 numbers"),
+        (with(&SUN, &["--no-polarisation", "--polarising-filter", "1", "-o", "a.exr"]), "polarisation = false: must be true"),
+        (with(&SUN, &["--tolerance", "0", "-o", "a.exr"]), "tolerance = 0: must be a number from 0.0001 to 0.5"),
+        (with(&SUN, &["--sample-map", "a.exr"]), "sample_map = a.exr: must be a file name that ends in .png"),
+        (with(&SUN, &["--sample-map", "nowhere/a.png"]), "nowhere/a.png: must be"),
         (with(&SUN, &["-o", "folder.exr"]), "output = folder.exr: must be a file, not a directory"),
         (with(&SUN, &["-o", "."]), "output = .: must be a file, not a directory"),
         (with(&SUN, &["-o", "nowhere/a.exr"]), "output = nowhere/a.exr: must be"),
@@ -200,6 +210,47 @@ fn solved_light_is_kept_where_the_environment_says_unless_it_is_switched_off() {
     std::fs::write(&cache, "").unwrap();
     assert_eq!(run(&[], ""), plain);
     assert_eq!(kept.len(), 1);
+}
+
+#[test]
+fn the_sky_is_polarised_and_a_filter_shows_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let high_sun =
+        ["render", "--sun-altitude", "30", "--sun-azimuth", "180", "--quality", "draft", "--width", "64", "--tolerance", "0.01"];
+    let picture = |name: &str, more: &[&str]| {
+        let made = tool(folder.path(), &[&high_sun[..], more, &["-o", name]].concat());
+        assert!(made.status.success(), "{}", text(&made.stderr));
+        skyprobe::io::exr::read(folder.path().join(name)).unwrap()
+    };
+    let plain = picture("plain.exr", &[]);
+    let upright = picture("upright.exr", &["--polarising-filter", "1"]);
+    let scalar = picture("scalar.exr", &["--no-polarisation"]);
+    // North, 60 degrees high: at right angles to the Sun, vibration horizontal.
+    let north = 3 * (5 * 64 + 16) + 1;
+    assert!(upright.pixels[north] < 0.5 * plain.pixels[north]);
+    let ratio = scalar.pixels[north] / plain.pixels[north];
+    assert!(ratio != 1.0 && (ratio - 1.0).abs() < 0.1, "{ratio}");
+    let held = picture(
+        "held.exr",
+        &["--polarising-filter", "0.5", "--filter-angle", "-20", "--filter-towards", "10,350", "--sample-map", "map.png"],
+    );
+    for part in [
+        r#""polarising_filter":{"strength":0.5,"angle_deg":-20.0,"held_towards_deg":[10.0,350.0]}"#,
+        r#""tolerance":0.01"#,
+        r#""polarisation":true"#,
+    ] {
+        assert!(held.attributes["skyprobe.config"].contains(part), "{}", held.attributes["skyprobe.config"]);
+    }
+    assert!(scalar.attributes["skyprobe.config"].contains(r#""polarisation":false"#));
+    // The header's configuration makes the picture again.
+    std::fs::write(folder.path().join("held.json"), &held.attributes["skyprobe.config"]).unwrap();
+    assert!(tool(folder.path(), &["render", "--config", "held.json", "-o", "again.exr"]).status.success());
+    assert!(skyprobe::io::exr::read(folder.path().join("again.exr")).unwrap().pixels == held.pixels);
+    let map = std::fs::read(folder.path().join("map.png")).unwrap();
+    assert!(map.starts_with(b"\x89PNG"));
+    // A map alone is enough to ask for.
+    assert!(tool(folder.path(), &[&high_sun[..], &["--sample-map", "alone.png"]].concat()).status.success());
+    assert!(folder.path().join("alone.png").is_file());
 }
 
 #[test]

@@ -66,7 +66,7 @@ def whole_solve() -> tuple[float, int]:
 
 def test_the_example_of_the_documentation_runs(tmp_path: pathlib.Path) -> None:
     air = sp.Atmosphere(
-        preset="clear", aerosol="continental_clean", aod550=0.1, ozone_du=300, ground="grass", quality="draft", polarisation=False
+        preset="clear", aerosol="continental_clean", aod550=0.1, ozone_du=300, ground="grass", quality="draft", polarisation=True
     )
     sky = sp.Sky(latitude=55.71, longitude=13.19, elevation_m=20, time="2005-06-21T13:00:00+02:00", atmosphere=air)
     assert sky.sun.name == "Sun"
@@ -169,7 +169,7 @@ def test_a_wrong_place_or_time_is_named(air: sp.Atmosphere, keywords: dict[str, 
         ({"ground": "lava"}, r'ground = "lava": must be one of'),
         ({"ground": 1.5}, r"ground = 1.5: must be"),
         ({"ground": None, "quality": "best"}, r'quality = "best": must be'),
-        ({"polarisation": True}, r"polarisation = true: must be"),
+        ({"wavelengths_nm": [500.0, 400.0]}, r"wavelengths_nm = 400: must be larger than the wavelength before it"),
     ],
 )
 def test_wrong_air_is_named(keywords: dict[str, object], message: str) -> None:

@@ -44,6 +44,7 @@ __all__ = [
     "InputError",
     "Irradiance",
     "Phase",
+    "PolarisingFilter",
     "Probe",
     "Sky",
     "SunEvents",
@@ -164,7 +165,10 @@ class Atmosphere:
     quality
         "draft", "standard", "high" or "reference".
     polarisation
-        Whether polarisation is followed; must be False in this version.
+        Whether light is solved with its polarisation. As a scalar it is wrong by several per cent: only to compare with scalar codes.
+    wavelengths_nm
+        Wavelengths at which light is solved instead of those of the quality: ascending, 300 to 1000, shape (W,). A probe and an illuminance
+        need at least four, from 450 or less to 650 or more. [nm]
     cache
         Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see ``SKYPROBE_CACHE_DIR``; drafts
         are not kept).
@@ -191,7 +195,8 @@ class Atmosphere:
         standard_atmosphere: str | None = None,
         surface_pressure_hpa: float | None = None,
         quality: _Quality = "standard",
-        polarisation: bool = False,
+        polarisation: bool = True,
+        wavelengths_nm: ArrayLike | None = None,
         cache: bool = True,
     ) -> Atmosphere: ...
     @staticmethod
@@ -205,7 +210,7 @@ class Atmosphere:
         planet_radius_km: float = 6371.0,
         sun_angular_radius_deg: float = 0.2664,
         quality: _Quality = "standard",
-        polarisation: bool = False,
+        polarisation: bool = True,
         cache: bool = True,
     ) -> Atmosphere:
         """An air given in full: another code's, or another planet's. Coefficients are linear between the altitudes.
@@ -229,7 +234,7 @@ class Atmosphere:
         quality
             "draft", "standard", "high" or "reference".
         polarisation
-            Whether polarisation is followed; must be False in this version.
+            Whether light is solved with its polarisation. As a scalar it is wrong by several per cent: only to compare with scalar codes.
         cache
             As for ``Atmosphere``.
         """
@@ -381,6 +386,37 @@ class Illuminance:
         """Of disc and sky, on the horizontal plane. [lx]"""
 
 @final
+class PolarisingFilter:
+    """A polarising filter between the sky and the picture: what is seen is I + strength (Q cos 2c + U sin 2c), where c is the angle of its
+    axis from the vertical. The half of the light that any filter takes is made up for by the exposure.
+
+    Parameters
+    ----------
+    strength
+        0 (no filter) to 1 (ideal).
+    angle_deg
+        Angle of the axis from the vertical, clockwise as one sees it, -180 to 180. [degrees]
+    held_towards_deg
+        Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture; the closer one looks along its axis, the less
+        it does. None: it turns with the view, its axis at the same angle from the vertical in every direction. [degrees]
+    """
+
+    def __new__(
+        cls, *, strength: float = 1.0, angle_deg: float = 0.0, held_towards_deg: tuple[float, float] | None = None
+    ) -> PolarisingFilter: ...
+    @property
+    def strength(self) -> float:
+        """0 (no filter) to 1 (ideal)."""
+
+    @property
+    def angle_deg(self) -> float:
+        """Angle of the axis from the vertical, clockwise as one sees it. [degrees]"""
+
+    @property
+    def held_towards_deg(self) -> tuple[float, float] | None:
+        """Altitude and azimuth towards which the filter is held; None if it turns with the view. [degrees]"""
+
+@final
 class Sky:
     """An atmosphere seen from a place at a time.
 
@@ -496,6 +532,25 @@ class Sky:
             Called with stage and fraction; returning False raises Cancelled.
         """
 
+    def stokes(
+        self, directions: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
+    ) -> NDArray[numpy.float64]:
+        """Stokes parameters I, Q, U of sky and ground without the Sun's disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+
+        Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
+        as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
+        arctan2(U, Q) / 2. Circular polarisation is neglected.
+
+        Parameters
+        ----------
+        directions
+            Unit vectors (east, north, up) that one looks along, shape (N, 3).
+        wavelengths_nm
+            Shape (W,), within the atmosphere's wavelengths. [nm]
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
     def irradiance(self, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None) -> Irradiance:
         """Spectral irradiance of Sun and sky. [W m-2 nm-1]
 
@@ -531,6 +586,8 @@ class Sky:
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        polarising_filter: PolarisingFilter | None = None,
+        tolerance: float | None = None,
         progress: _Progress | None = None,
     ) -> Probe:
         """An image of the light from all directions.
@@ -556,6 +613,11 @@ class Sky:
         gamut
             What happens to a colour outside the space: "desaturate" towards the grey of its luminance, "clip" negative values, or
             "keep" them.
+        polarising_filter
+            What is held before the sky.
+        tolerance
+            Relative error that interpolated directions may have, 0.0001 to 0.5: light is gathered in as many directions as that needs. None: in as
+            many as the quality says.
         progress
             Called with stage and fraction; returning False raises Cancelled.
         """
@@ -573,6 +635,8 @@ class Sky:
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        polarising_filter: PolarisingFilter | None = None,
+        tolerance: float | None = None,
         half: bool | Literal["off", "refuse", "scale"] | None = None,
         exposure_stops: float = 0.0,
         progress: _Progress | None = None,
@@ -584,12 +648,33 @@ class Sky:
         ----------
         path
             Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut
+        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance
             As for ``render``.
         half, exposure_stops
             As for ``Probe.save``.
         progress
             Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
+        """
+
+    def sample_map(
+        self,
+        *,
+        width: int = 1024,
+        polarising_filter: PolarisingFilter | None = None,
+        tolerance: float | None = None,
+        progress: _Progress | None = None,
+    ) -> NDArray[numpy.uint8]:
+        """A picture of the directions in which the light of a probe is gathered, to look at: latitude-longitude, 8-bit sRGB, shape (H, W, 3), white points
+        on the darkened sky. They lie on one side of the Sun, as the other follows by symmetry.
+
+        Parameters
+        ----------
+        width
+            Even, 64 to 16384. [pixels]
+        polarising_filter, tolerance
+            As for ``render``.
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
         """
 
 @final

@@ -37,6 +37,9 @@ pub struct AirOptions {
     /// How finely the light is solved: draft, standard, high or reference. Default: standard.
     #[arg(long, value_name = "NAME", help_heading = AIR)]
     quality: Option<String>,
+    /// Solve light as a scalar, which is wrong by several per cent: only to compare with scalar codes.
+    #[arg(long, help_heading = MORE_AIR, hide_short_help = true)]
+    no_polarisation: bool,
     /// Optical depth at 550 nm of a volcanic haze in the stratosphere, 0 to 1. Default: the preset's, mostly 0.
     #[arg(long, value_name = "TAU", help_heading = MORE_AIR, hide_short_help = true)]
     stratospheric_aod550: Option<f64>,
@@ -103,6 +106,7 @@ impl AirOptions {
         if let Some(name) = &self.quality {
             config.atmosphere.quality = name.parse()?;
         }
+        config.atmosphere.polarisation &= !self.no_polarisation;
         Ok(())
     }
 }

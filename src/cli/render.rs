@@ -4,8 +4,9 @@ use super::air_options::AirOptions;
 use super::options::{ConfigOptions, PlaceOptions};
 use super::{say, terminal};
 use crate::error::{Error, Result, check_range};
-use crate::io::{Config, check_output, describe, json, render_to_files};
+use crate::io::{Config, SampleMap, check_output, describe, json, render_to_files};
 use crate::probe::{MAX_WIDTH, MIN_WIDTH};
+use crate::sky::{Model, PolarisingFilter};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,6 +25,8 @@ Examples:
       --ground city --width 8192 -o sydney.exr
   A Sun put at 30 degrees in the south, for Mitsuba (envmap; rotate x by 90, then z by 90 degrees):
     skyprobe render --sun-altitude 30 --sun-azimuth 180 --rows corner --scale mitsuba -o sky.exr
+  The same sky through a polarising filter that is held towards the east, 90 degrees from the Sun:
+    skyprobe render --sun-altitude 30 --sun-azimuth 180 --polarising-filter 1 --filter-towards 20,90 -o dark.png
   Write a configuration, change it by hand, render it:
     skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 -o lund.exr --dump-config > lund.json
     skyprobe render --config lund.json --width 512
@@ -47,6 +50,21 @@ pub struct Options {
     /// images). Default: scattering.
     #[arg(long, value_name = "NAME", help_heading = IMAGE)]
     model: Option<String>,
+    /// See the sky through a polarising filter of this strength, 0 to 1 (ideal), exposed so that unpolarised light stays as it is.
+    #[arg(long, value_name = "STRENGTH", help_heading = IMAGE)]
+    polarising_filter: Option<f64>,
+    /// Angle of the filter's axis from the vertical, clockwise as one sees it, -180 to 180 [degrees]. Default: 0.
+    #[arg(long, value_name = "DEG", help_heading = IMAGE)]
+    filter_angle: Option<f64>,
+    /// Hold the filter towards this altitude and azimuth [degrees], one piece of glass for the whole picture; otherwise it turns with the view.
+    #[arg(long, value_name = "ALT,AZ", value_delimiter = ',', num_args = 1, help_heading = IMAGE)]
+    filter_towards: Option<Vec<f64>>,
+    /// Relative error that interpolated directions may have, 0.0001 to 0.5. Default: as many directions as the quality says.
+    #[arg(long, value_name = "SHARE", help_heading = IMAGE)]
+    tolerance: Option<f64>,
+    /// Write a picture (.png) of the directions in which light was gathered.
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    sample_map: Option<PathBuf>,
     /// File to write: .exr (float, ZIP), .hdr (Radiance RGBE) or .png (tone mapped, to look at). May be given several times.
     #[arg(short, long, value_name = "FILE", help_heading = OUTPUT)]
     output: Vec<PathBuf>,
@@ -151,16 +169,52 @@ impl Options {
             config.output.push(preview.clone());
         }
         if let Some(name) = &self.model {
-            config.model = name.parse()?;
+            config.light.model = name.parse()?;
         }
+        self.apply_filter(&mut config.light.polarising_filter)?;
+        config.light.tolerance = self.tolerance.or(config.light.tolerance);
         if let Some(name) = &self.half {
             config.file.half = name.parse()?;
         }
         config.file.exposure_stops = self.exposure.unwrap_or(config.file.exposure_stops);
         config.validate()?;
+        if let Some(path) = &self.sample_map {
+            SampleMap::check_name(path)?;
+            if config.light.model != Model::Scattering {
+                return Err(Error::input("sample_map", path.display(), "left out for a model other than scattering"));
+            }
+        }
         Ok(config)
     }
+
+    fn apply_filter(&self, filter: &mut Option<PolarisingFilter>) -> Result<()> {
+        if let Some(strength) = self.polarising_filter {
+            filter.get_or_insert_default().strength = strength;
+        }
+        let Some(filter) = filter else {
+            return match (self.filter_angle, &self.filter_towards) {
+                (None, None) => Ok(()),
+                _ => Err(Error::input("polarising_filter", "nothing", "given, to turn it or to hold it towards a direction")),
+            };
+        };
+        filter.angle_deg = self.filter_angle.unwrap_or(filter.angle_deg);
+        match self.filter_towards.as_deref() {
+            None => {}
+            Some(&[altitude, azimuth]) => filter.held_towards_deg = Some([altitude, azimuth]),
+            Some(other) => {
+                return Err(Error::input(
+                    "filter_towards",
+                    format!("{} numbers", other.len()),
+                    "altitude and azimuth, such as 30,180",
+                ));
+            }
+        }
+        Ok(())
+    }
 }
+
+/// Width of the picture of samples [pixels].
+const SAMPLE_MAP_WIDTH: usize = 1024;
 
 /// Renders, and writes the files.
 pub fn run(options: &Options) -> Result<()> {
@@ -169,16 +223,33 @@ pub fn run(options: &Options) -> Result<()> {
         return say(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
-    if config.output.is_empty() {
+    if config.output.is_empty() && options.sample_map.is_none() {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
-    config.output.iter().try_for_each(|path| check_target(path))?;
+    config.output.iter().chain(&options.sample_map).try_for_each(|path| check_target(path))?;
     terminal::with_progress(|progress| {
-        let metadata = describe(&sky, (config.sun_model, config.model), &config.probe);
-        render_to_files(&*sky.light_by(config.model, progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
+        if let Some(path) = &options.sample_map {
+            let light = sky.filtered_light(config.light.polarising_filter.as_ref(), config.light.tolerance, progress)?;
+            SampleMap::new(&light, SAMPLE_MAP_WIDTH, progress)?.save(path)?;
+        }
+        if config.output.is_empty() {
+            return Ok(());
+        }
+        let metadata = describe(&sky, config.sun_model, &config.light, &config.probe);
+        render_to_files(
+            &*sky.light_by(&config.light, progress)?,
+            &config.probe,
+            &config.output,
+            &config.file,
+            &metadata,
+            progress,
+        )
     })?;
     let (width, height, sun) = (config.probe.width, config.probe.height(), sky.sun());
     let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);
+    if let Some(path) = &options.sample_map {
+        say(&format!("{}: samples", path.display()))?;
+    }
     config.output.iter().try_for_each(|path| say(&format!("{}: {width} x {height}, {sun}", path.display())))
 }
 

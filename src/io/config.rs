@@ -17,7 +17,7 @@ use crate::ephemeris::{Place, SunModel};
 use crate::error::{Error, Result, check_range};
 use crate::probe::ProbeSettings;
 use crate::quality::Quality;
-use crate::sky::{Atmosphere, Model, Sky};
+use crate::sky::{Atmosphere, LightOptions, Model, PolarisingFilter, Sky, check_chosen_wavelengths};
 use crate::time::{Time, ZoneChoice};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -41,8 +41,8 @@ pub struct Config {
     pub sun: Option<SunPosition>,
     /// By which theory the Sun's position is computed.
     pub sun_model: SunModel,
-    /// By which model the sky is rendered.
-    pub model: Model,
+    /// By which model, through which filter and how exactly the sky is rendered: the keys `model`, `polarising_filter` and `tolerance`.
+    pub light: LightOptions,
     /// The state of the air.
     pub atmosphere: AtmosphereConfig,
     /// The image.
@@ -64,14 +64,22 @@ pub struct SunPosition {
 }
 
 /// The state of the air and how finely its light is solved: one table in JSON.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AtmosphereConfig {
     /// What the air is made of.
     pub air: AirParameters,
     /// How finely the light is solved.
     pub quality: Quality,
-    /// Whether polarisation is followed.
+    /// Whether light is solved with its polarisation; as a scalar it is wrong by several per cent, only to compare with scalar codes.
     pub polarisation: bool,
+    /// Wavelengths at which light is solved instead of those of the quality: ascending, 300 to 1000 [nm].
+    pub wavelengths_nm: Option<Vec<f64>>,
+}
+
+impl Default for AtmosphereConfig {
+    fn default() -> Self {
+        Self { air: AirParameters::default(), quality: Quality::default(), polarisation: true, wavelengths_nm: None }
+    }
 }
 
 /// The top level as it is written, its tables still unread.
@@ -86,6 +94,8 @@ struct Document {
     sun: Option<Value>,
     sun_model: SunModel,
     model: Model,
+    polarising_filter: Option<Value>,
+    tolerance: Option<f64>,
     atmosphere: Option<Value>,
     probe: Option<Value>,
     file: Option<Value>,
@@ -93,11 +103,17 @@ struct Document {
 }
 
 /// The keys of the table `atmosphere` that are not the air's.
-#[derive(Default, Deserialize)]
-#[serde(default)]
+#[derive(Deserialize)]
 struct SolveKeys {
+    #[serde(default)]
     quality: Quality,
+    #[serde(default = "yes")]
     polarisation: bool,
+    wavelengths_nm: Option<Vec<f64>>,
+}
+
+fn yes() -> bool {
+    true
 }
 
 impl Config {
@@ -128,7 +144,14 @@ impl Config {
             zone: document.zone,
             sun: document.sun.map(|sun| json::read("sun", &sun)).transpose()?,
             sun_model: document.sun_model,
-            model: document.model,
+            light: LightOptions {
+                model: document.model,
+                polarising_filter: document
+                    .polarising_filter
+                    .map(|filter| json::read::<PolarisingFilter>("polarising_filter", &filter))
+                    .transpose()?,
+                tolerance: document.tolerance,
+            },
             atmosphere: document
                 .atmosphere
                 .map(|air| AtmosphereConfig::from_value("atmosphere", &air))
@@ -162,7 +185,9 @@ impl Config {
         put("zone", value_of(&self.zone));
         put("sun", value_of(&self.sun));
         put("sun_model", value_of(&self.sun_model));
-        put("model", value_of(&self.model));
+        put("model", value_of(&self.light.model));
+        put("polarising_filter", value_of(&self.light.polarising_filter));
+        put("tolerance", value_of(&self.light.tolerance));
         put("atmosphere", self.atmosphere.to_value());
         put("probe", value_of(&self.probe));
         put("file", value_of(&self.file));
@@ -196,7 +221,12 @@ impl Config {
             Time::parse(text, ZoneChoice::Named(zone))?;
         }
         check_range(&json::join(file_table, "exposure_stops"), self.file.exposure_stops, -20.0, 20.0, "stops")?;
-        self.atmosphere.air.validate().map_err(|error| json::within(air_table, error))?;
+        let AtmosphereConfig { air, wavelengths_nm, .. } = &self.atmosphere;
+        air.validate().map_err(|error| json::within(air_table, error))?;
+        if let Some(wavelengths_nm) = wavelengths_nm {
+            check_chosen_wavelengths(wavelengths_nm).map_err(|error| json::within(air_table, error))?;
+        }
+        self.light.validate()?;
         self.probe.validate().map_err(|error| json::within(probe_table, error))
     }
 
@@ -218,8 +248,11 @@ impl Config {
     /// # Errors
     /// [`Error::Input`] that names the parameter.
     pub fn atmosphere(&self) -> Result<Atmosphere> {
-        let AtmosphereConfig { air, quality, polarisation } = &self.atmosphere;
-        Atmosphere::new(air, *quality, *polarisation)
+        let AtmosphereConfig { air, quality, polarisation, wavelengths_nm } = &self.atmosphere;
+        match wavelengths_nm {
+            None => Atmosphere::new(air, *quality, *polarisation),
+            Some(wavelengths_nm) => Atmosphere::at_wavelengths(air, wavelengths_nm, *quality, *polarisation),
+        }
     }
 
     /// The sky of `atmosphere` over the place at the time, or under the Sun that is put.
@@ -253,20 +286,21 @@ impl AtmosphereConfig {
     /// # Errors
     /// [`Error::Input`] that names the key.
     pub fn from_value(path: &str, value: &Value) -> Result<Self> {
-        let SolveKeys { quality, polarisation } = json::read(path, value)?;
+        let SolveKeys { quality, polarisation, wavelengths_nm } = json::read(path, value)?;
         let mut air = value.clone();
         if let Some(map) = air.as_object_mut() {
-            map.shift_remove("quality");
-            map.shift_remove("polarisation");
+            for key in ["quality", "polarisation", "wavelengths_nm"] {
+                map.shift_remove(key);
+            }
         }
-        // The reader of the air does not know the two keys that are not its own.
+        // The reader of the air does not know the keys that are not its own.
         let air = json::read(path, &air).map_err(|error| match error {
             Error::Input { parameter, value, allowed } if parameter.starts_with("unknown key ") => {
-                Error::Input { parameter, value, allowed: allowed + ", quality, polarisation" }
+                Error::Input { parameter, value, allowed: allowed + ", quality, polarisation, wavelengths_nm" }
             }
             other => other,
         })?;
-        Ok(Self { air, quality, polarisation })
+        Ok(Self { air, quality, polarisation, wavelengths_nm })
     }
 
     fn to_value(&self) -> Value {
@@ -274,6 +308,9 @@ impl AtmosphereConfig {
         if let Some(map) = value.as_object_mut() {
             map.insert("quality".to_string(), value_of(&self.quality));
             map.insert("polarisation".to_string(), Value::Bool(self.polarisation));
+            if let Some(wavelengths_nm) = &self.wavelengths_nm {
+                map.insert("wavelengths_nm".to_string(), value_of(wavelengths_nm));
+            }
         }
         value
     }

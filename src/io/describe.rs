@@ -4,11 +4,11 @@ use super::config::{AtmosphereConfig, Config, SunPosition};
 use super::{FileOptions, Metadata};
 use crate::ephemeris::SunModel;
 use crate::probe::ProbeSettings;
-use crate::sky::{Model, Sky};
+use crate::sky::{LightOptions, Sky};
 use crate::time::Time;
 
-/// The facts about a probe of `sky` by the models of the Sun's place and of the sky's light with `settings`, with the configuration that makes it again unless its air was given as a profile.
-pub fn describe(sky: &Sky, (sun_model, model): (SunModel, Model), settings: &ProbeSettings) -> Metadata {
+/// The facts about a probe of `sky` by the model of the Sun's place, made with `light` and `settings`, with the configuration that makes it again unless its air was given as a profile.
+pub fn describe(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Metadata {
     let (place, time, sun) = (sky.place(), sky.time(), sky.sun());
     Metadata {
         latitude_deg: place.map(|place| place.latitude_deg),
@@ -18,13 +18,13 @@ pub fn describe(sky: &Sky, (sun_model, model): (SunModel, Model), settings: &Pro
         utc_offset_s: time.map(|time| -f64::from(time.utc_offset_s())),
         sun_altitude_deg: Some(sun.altitude_deg),
         sun_azimuth_deg: Some(sun.azimuth_deg),
-        config_json: config_of(sky, (sun_model, model), settings).map(|config| config.to_value().to_string()),
+        config_json: config_of(sky, sun_model, light, settings).map(|config| config.to_value().to_string()),
         comments: None,
     }
 }
 
 /// The configuration that makes a probe of `sky` again; `None` if its air was given as a profile.
-fn config_of(sky: &Sky, (sun_model, model): (SunModel, Model), settings: &ProbeSettings) -> Option<Config> {
+fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Option<Config> {
     let (place, time, atmosphere, sun) = (sky.place(), sky.time(), sky.atmosphere(), sky.sun());
     let put = SunPosition { altitude_deg: sun.altitude_deg, azimuth_deg: sun.azimuth_deg };
     Some(Config {
@@ -35,11 +35,12 @@ fn config_of(sky: &Sky, (sun_model, model): (SunModel, Model), settings: &ProbeS
         zone: time.and_then(Time::zone_name).map(str::to_string),
         sun: place.is_none().then_some(put),
         sun_model,
-        model,
+        light: *light,
         atmosphere: AtmosphereConfig {
             air: atmosphere.parameters()?.clone(),
             quality: atmosphere.quality(),
-            polarisation: false,
+            polarisation: atmosphere.is_polarised(),
+            wavelengths_nm: atmosphere.chosen_wavelengths().map(<[f64]>::to_vec),
         },
         probe: settings.clone(),
         file: FileOptions::default(),

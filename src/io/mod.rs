@@ -9,12 +9,14 @@ pub mod json;
 pub mod metadata;
 pub mod png;
 mod row_file;
+mod sample_map;
 mod stream;
 
 pub use atomic::{check_writable, write_atomically};
 pub use config::Config;
 pub use describe::describe;
 pub use metadata::Metadata;
+pub use sample_map::SampleMap;
 pub use stream::render_to_files;
 
 use crate::error::{Error, Result};

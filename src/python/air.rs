@@ -56,7 +56,10 @@ use std::sync::Arc;
 /// quality
 ///     "draft", "standard", "high" or "reference".
 /// polarisation
-///     Whether polarisation is followed; must be False in this version.
+///     Whether light is solved with its polarisation. As a scalar it is wrong by several per cent: only to compare with scalar codes.
+/// wavelengths_nm
+///     Wavelengths at which light is solved instead of those of the quality: ascending, 300 to 1000, shape (W,). A probe and an illuminance
+///     need at least four, from 450 or less to 650 or more. [nm]
 /// cache
 ///     Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see ``SKYPROBE_CACHE_DIR``; drafts
 ///     are not kept).
@@ -72,7 +75,7 @@ impl Atmosphere {
         visibility_km = None, ozone_du = None, ground = None, angstrom_exponent = None, single_scattering_albedo = None,
         asymmetry = None, phase_function = None, aerosol_scale_height_km = None, stratospheric_aod550 = None,
         stratospheric_altitude_km = None, standard_atmosphere = None, surface_pressure_hpa = None,
-        quality = "standard", polarisation = false, cache = true))]
+        quality = "standard", polarisation = true, wavelengths_nm = None, cache = true))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         preset: &str,
@@ -94,6 +97,7 @@ impl Atmosphere {
         surface_pressure_hpa: Option<f64>,
         quality: &str,
         polarisation: bool,
+        wavelengths_nm: Option<&Bound<'_, PyAny>>,
         cache: bool,
     ) -> PyResult<Self> {
         let air = AirParameters {
@@ -115,7 +119,13 @@ impl Atmosphere {
             standard_atmosphere: standard_atmosphere.map(str::parse).transpose()?,
             surface_pressure_hpa,
         };
-        let inner = sky::Atmosphere::new(&air, quality.parse::<Quality>()?, polarisation)?;
+        let quality = quality.parse::<Quality>()?;
+        let inner = match wavelengths_nm {
+            None => sky::Atmosphere::new(&air, quality, polarisation)?,
+            Some(given) => {
+                sky::Atmosphere::at_wavelengths(&air, &arrays::vector("wavelengths_nm", given)?, quality, polarisation)?
+            }
+        };
         Ok(Self { inner: Arc::new(inner.with_cache(if cache { sky::Cache::of_user() } else { None })) })
     }
 
@@ -140,12 +150,12 @@ impl Atmosphere {
     /// quality
     ///     "draft", "standard", "high" or "reference".
     /// polarisation
-    ///     Whether polarisation is followed; must be False in this version.
+    ///     Whether light is solved with its polarisation. As a scalar it is wrong by several per cent: only to compare with scalar codes.
     /// cache
     ///     As for ``Atmosphere``.
     #[staticmethod]
     #[pyo3(signature = (altitudes_km, wavelengths_nm, components, *, solar_irradiance, ground_albedo = None,
-        planet_radius_km = 6371.0, sun_angular_radius_deg = 0.2664, quality = "standard", polarisation = false, cache = true))]
+        planet_radius_km = 6371.0, sun_angular_radius_deg = 0.2664, quality = "standard", polarisation = true, cache = true))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn from_profile(
         altitudes_km: &Bound<'_, PyAny>,

@@ -6,6 +6,7 @@
 mod air;
 mod arrays;
 mod errors;
+mod filter;
 mod probe;
 mod results;
 mod sky;
@@ -24,6 +25,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<air::Atmosphere>()?;
     module.add_class::<air::Component>()?;
     module.add_class::<air::Phase>()?;
+    module.add_class::<filter::PolarisingFilter>()?;
     module.add_class::<sky::Sky>()?;
     module.add_class::<probe::Probe>()?;
     module.add_class::<results::Body>()?;

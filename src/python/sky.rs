@@ -3,17 +3,18 @@
 use super::air::Atmosphere;
 use super::arrays;
 use super::errors::InputError;
+use super::filter::PolarisingFilter;
 use super::probe::{Probe, read_half};
 use super::results::{Body, Illuminance, Irradiance, SunEvents, datetime};
 use super::work;
 use crate::ephemeris::{self, Place, SunModel};
 use crate::error::check_range;
 use crate::io::config::time_at;
-use crate::io::{FileOptions, Half, check_output, describe, json, render_to_files};
+use crate::io::{FileOptions, Half, SampleMap, check_output, describe, json, render_to_files};
 use crate::probe::{self, ProbeSettings};
-use crate::sky::{self, Model};
+use crate::sky::{self, LightOptions, Model};
 use glam::DVec3;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use std::path::PathBuf;
@@ -190,6 +191,35 @@ impl Sky {
         PyArray1::from_vec(py, radiance).reshape(shape)
     }
 
+    /// Stokes parameters I, Q, U of sky and ground without the Sun's disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+    ///
+    /// Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
+    /// as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
+    /// arctan2(U, Q) / 2. Circular polarisation is neglected.
+    ///
+    /// Parameters
+    /// ----------
+    /// directions
+    ///     Unit vectors (east, north, up) that one looks along, shape (N, 3).
+    /// wavelengths_nm
+    ///     Shape (W,), within the atmosphere's wavelengths. [nm]
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled.
+    #[pyo3(signature = (directions, wavelengths_nm, *, progress = None))]
+    fn stokes<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        wavelengths_nm: &Bound<'py, PyAny>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let directions = unit_vectors(directions)?;
+        let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
+        let shape = [directions.len(), wavelengths_nm.len(), 3];
+        let stokes = work::run(py, progress, |progress| self.inner.stokes(&directions, &wavelengths_nm, progress))?;
+        PyArray1::from_vec(py, stokes).reshape(shape)
+    }
+
     /// Spectral irradiance of Sun and sky. [W m-2 nm-1]
     ///
     /// Parameters
@@ -254,10 +284,16 @@ impl Sky {
     /// gamut
     ///     What happens to a colour outside the space: "desaturate" towards the grey of its luminance, "clip" negative values, or
     ///     "keep" them.
+    /// polarising_filter
+    ///     What is held before the sky.
+    /// tolerance
+    ///     Relative error that interpolated directions may have, 0.0001 to 0.5: light is gathered in as many directions as that needs. None: in as
+    ///     many as the quality says.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled.
     #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
-        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", progress = None))]
+        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None,
+        progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render(
         &self,
@@ -271,12 +307,15 @@ impl Sky {
         scale: &str,
         color_space: &str,
         gamut: &str,
+        polarising_filter: Option<PyRef<'_, PolarisingFilter>>,
+        tolerance: Option<f64>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Probe> {
+        let light = self.light_options(polarising_filter, tolerance)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
         let rendered =
-            work::run(py, progress, |progress| probe::render(&*self.inner.light_by(self.model, progress)?, &settings, progress))?;
-        Ok(Probe::new(rendered, describe(&self.inner, (self.sun_model, self.model), &settings)))
+            work::run(py, progress, |progress| probe::render(&*self.inner.light_by(&light, progress)?, &settings, progress))?;
+        Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &light, &settings)))
     }
 
     /// Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
@@ -286,14 +325,15 @@ impl Sky {
     /// ----------
     /// path
     ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut
+    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance
     ///     As for ``render``.
     /// half, exposure_stops
     ///     As for ``Probe.save``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
     #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
-        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", half = None, exposure_stops = 0.0, progress = None))]
+        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, half = None,
+        exposure_stops = 0.0, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render_to_file(
         &self,
@@ -308,18 +348,57 @@ impl Sky {
         scale: &str,
         color_space: &str,
         gamut: &str,
+        polarising_filter: Option<PyRef<'_, PolarisingFilter>>,
+        tolerance: Option<f64>,
         half: Option<&Bound<'_, PyAny>>,
         exposure_stops: f64,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
+        let light = self.light_options(polarising_filter, tolerance)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
         let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops };
         check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
         check_output(&path)?;
-        let metadata = describe(&self.inner, (self.sun_model, self.model), &settings);
+        let metadata = describe(&self.inner, self.sun_model, &light, &settings);
         work::run(py, progress, |progress| {
-            render_to_files(&*self.inner.light_by(self.model, progress)?, &settings, &[&path], &options, &metadata, progress)
+            render_to_files(&*self.inner.light_by(&light, progress)?, &settings, &[&path], &options, &metadata, progress)
         })
+    }
+
+    /// A picture of the directions in which the light of a probe is gathered, to look at: latitude-longitude, 8-bit sRGB, shape (H, W, 3), white points
+    /// on the darkened sky. They lie on one side of the Sun, as the other follows by symmetry.
+    ///
+    /// Parameters
+    /// ----------
+    /// width
+    ///     Even, 64 to 16384. [pixels]
+    /// polarising_filter, tolerance
+    ///     As for ``render``.
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled.
+    #[pyo3(signature = (*, width = 1024, polarising_filter = None, tolerance = None, progress = None))]
+    fn sample_map<'py>(
+        &self,
+        py: Python<'py>,
+        width: i64,
+        polarising_filter: Option<PyRef<'py, PolarisingFilter>>,
+        tolerance: Option<f64>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let light = self.light_options(polarising_filter, tolerance)?;
+        if light.model != Model::Scattering {
+            return Err(InputError::new_err(format!(
+                "model = {:?}: must be \"scattering\" for a sample map",
+                light.model.name()
+            )));
+        }
+        let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
+        let width = check_range("width", width as f64, low, high, "pixels")? as usize;
+        let map = work::run(py, progress, |progress| {
+            let dome = self.inner.filtered_light(light.polarising_filter.as_ref(), light.tolerance, progress)?;
+            SampleMap::new(&dome, width, progress)
+        })?;
+        PyArray1::from_vec(py, map.pixels).reshape([map.height, map.width, 3])
     }
 
     fn __repr__(&self) -> String {
@@ -331,6 +410,14 @@ impl Sky {
             }
             _ => format!("<Sky: {sun}>"),
         }
+    }
+}
+
+impl Sky {
+    fn light_options(&self, filter: Option<PyRef<'_, PolarisingFilter>>, tolerance: Option<f64>) -> PyResult<LightOptions> {
+        let options = LightOptions { model: self.model, polarising_filter: filter.map(|filter| filter.inner), tolerance };
+        options.validate()?;
+        Ok(options)
     }
 }
 

@@ -15,6 +15,8 @@ pub struct Atmosphere {
     profile: OpticalProfile,
     quality: Quality,
     polarised: bool,
+    /// Whether the wavelengths are not those of the quality.
+    chosen_wavelengths: bool,
     cache: Option<Cache>,
     field: OnceLock<LightField>,
     /// Held while solving, so that two threads that need the light at once solve it once.
@@ -31,6 +33,27 @@ impl Atmosphere {
         Ok(Self::unsolved(Some(parameters.clone()), profile, quality, polarisation))
     }
 
+    /// The air of `parameters`, whose light is solved at `wavelengths_nm` (ascending, 300 to 1000 nm) instead of those of the quality. A probe or an illuminance needs wavelengths that make a
+    /// colour: at least four from 450 nm or less to 650 nm or more.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; [`Error::Input`] for wavelengths that are none, not ascending or out of range.
+    pub fn at_wavelengths(
+        parameters: &AirParameters,
+        wavelengths_nm: &[f64],
+        quality: Quality,
+        polarisation: bool,
+    ) -> Result<Self> {
+        check_chosen(wavelengths_nm)?;
+        let profile = parameters.optical_profile(wavelengths_nm)?;
+        Ok(Self { chosen_wavelengths: true, ..Self::unsolved(Some(parameters.clone()), profile, quality, polarisation) })
+    }
+
+    /// The wavelengths given to [`Self::at_wavelengths`]; `None` for those of the quality or of a profile [nm].
+    pub fn chosen_wavelengths(&self) -> Option<&[f64]> {
+        self.chosen_wavelengths.then_some(self.profile.wavelengths_nm.as_slice())
+    }
+
     /// Air given in full; its light is solved at the wavelengths of the profile.
     ///
     /// # Errors
@@ -41,7 +64,16 @@ impl Atmosphere {
     }
 
     fn unsolved(parameters: Option<AirParameters>, profile: OpticalProfile, quality: Quality, polarised: bool) -> Self {
-        Self { parameters, profile, quality, polarised, cache: None, field: OnceLock::new(), solving: Mutex::new(()) }
+        Self {
+            parameters,
+            profile,
+            quality,
+            polarised,
+            chosen_wavelengths: false,
+            cache: None,
+            field: OnceLock::new(),
+            solving: Mutex::new(()),
+        }
     }
 
     /// The same air, whose solved light is looked for in `cache` and kept there; `None`, which is the default, for none. Drafts, which are solved while a slider moves, are
@@ -179,6 +211,20 @@ impl Atmosphere {
     }
 }
 
+/// Checks wavelengths at which the air of parameters is to be solved [nm].
+pub(crate) fn check_chosen(wavelengths_nm: &[f64]) -> Result<()> {
+    if wavelengths_nm.is_empty() {
+        return Err(Error::input("wavelengths_nm", "nothing", "left out, or at least one wavelength"));
+    }
+    for &wavelength in wavelengths_nm {
+        crate::error::check_range("wavelengths_nm", wavelength, 300.0, 1000.0, "nm")?;
+    }
+    match wavelengths_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
+        Some([_, later]) => Err(Error::input("wavelengths_nm", later, "larger than the wavelength before it")),
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,6 +268,33 @@ mod tests {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         assert_ne!(air(0.1 + 1e-15, true, &cache).key(), solved.key());
         assert_ne!(air(0.1, false, &cache).key(), solved.key());
+    }
+
+    #[test]
+    fn the_air_can_be_solved_at_chosen_wavelengths() {
+        let clear = AirParameters::default();
+        let at = |wavelengths: &[f64]| Atmosphere::at_wavelengths(&clear, wavelengths, Quality::Draft, true);
+        let (some, usual) = (at(&[360.0, 380.0, 1000.0]).unwrap(), Atmosphere::new(&clear, Quality::Draft, true).unwrap());
+        let zenith = |air: &Atmosphere, wavelength: usize| {
+            let field = air.field(&Progress::silent()).unwrap();
+            let observer = Observer { altitude_km: 0.0, sun_zenith: 1.0 };
+            field.radiance(&field.gather(&observer, 1.0, &[0.0]), 0, wavelength, 1_f64.cos())
+        };
+        // Both know 380 nm, and differ only in the width of the band over which ozone is averaged.
+        assert_eq!(usual.profile().wavelengths_nm[0], 380.0);
+        assert!((zenith(&some, 1) / zenith(&usual, 0) - 1.0).abs() < 1e-3);
+        let [near, far] = [0, 2].map(|w| zenith(&some, w) / zenith(&some, 1));
+        assert!((near - 1.0).abs() < 0.2 && far < 0.3, "{near} {far}");
+        assert!(some.xyz_weights().is_err() && usual.chosen_wavelengths().is_none());
+        for (wrong, start) in [
+            (&[][..], "wavelengths_nm = nothing"),
+            (&[299.0], "wavelengths_nm = 299: must be a number from 300 to 1000 nm"),
+            (&[f64::NAN], "wavelengths_nm = NaN"),
+            (&[500.0, 500.0], "wavelengths_nm = 500: must be larger"),
+        ] {
+            let message = at(wrong).err().unwrap().to_string();
+            assert!(message.starts_with(start), "{message}");
+        }
     }
 
     #[test]

@@ -4,13 +4,16 @@
 //! ([`crate::light::AngularFunctions`]) of f F_f + rest, all as XYZ. The functions, sharp around the Sun, are applied in each direction exactly; through a polarising filter, so
 //! is the polarisation of light scattered once.
 //! Interpolation is cubic in the square root of the angular distance from the horizon, where light changes fastest, and in azimuth from the Sun, in which the fields are even (U odd).
+//! The circles of equal altitude that are gathered are those of the quality, or as many as a tolerance needs (`refine`).
+
+mod refine;
 
 use super::SkyLight;
 use super::disc::Disc;
 use super::filter::PolarisingFilter;
 use crate::error::Result;
 use crate::light::{AngularFunctions, Axis, Gathered, LightField, Observer, Once};
-use crate::progress::Progress;
+use crate::progress::{Parts, Progress};
 use crate::quality::Numbers;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -62,66 +65,92 @@ pub(super) struct Gathering<'a> {
     pub field: &'a LightField,
     pub numbers: &'a Numbers,
     pub filter: Option<PolarisingFilter>,
+    /// Relative error that interpolation may have, instead of the quality's numbers of circles and azimuths.
+    pub tolerance: Option<f64>,
     /// Weights that turn radiance per unit solar irradiance into XYZ.
     pub weights: Vec<[f64; 3]>,
     pub observer: Observer,
     pub horizon: f64,
+    /// Altitude and azimuth of the Sun's centre, geometric [radians].
+    pub sun: (f64, f64),
 }
 
 impl SkyDome {
-    /// Gathers the light for a Sun at `sun_altitude`, `sun_azimuth` [radians].
-    pub(super) fn gather(
-        what: &Gathering,
-        (sun_altitude, sun_azimuth): (f64, f64),
-        discs: Vec<Disc>,
-        progress: &Progress,
-    ) -> Result<Self> {
-        let circles = what.numbers.dome_circles;
-        let below_circles = circles / 2;
-        let parts = progress.parts("gather", circles + below_circles);
+    /// Gathers the light.
+    pub(super) fn gather(what: &Gathering, discs: Vec<Disc>, progress: &Progress) -> Result<Self> {
         let functions = what.field.functions();
         let count = functions.iter().map(AngularFunctions::len).sum::<usize>() + if what.filter.is_some() { 3 } else { 1 };
         let terms = Terms { functions: Arc::clone(functions), filter: what.filter, count };
-        // A hair inside each side, so that the ray along the horizon is on the side it belongs to.
-        const HAIR: f64 = 1e-7;
-        let above =
-            Half::gather(what, &terms, circles, |share| what.horizon + HAIR + (FRAC_PI_2 - what.horizon - HAIR) * share, &parts)?;
-        let below = Half::gather(
-            what,
-            &terms,
-            below_circles,
-            |share| what.horizon - HAIR - (FRAC_PI_2 + what.horizon - HAIR) * share,
-            &parts,
-        )?;
+        let sides = [Side { what, terms: &terms, above: true }, Side { what, terms: &terms, above: false }];
+        let [above, below] = match what.tolerance {
+            None => {
+                let circles = [what.numbers.dome_circles, what.numbers.dome_circles / 2];
+                let parts = progress.parts("gather", circles[0] + circles[1]);
+                [sides[0].even(circles[0], &parts)?, sides[1].even(circles[1], &parts)?]
+            }
+            Some(tolerance) => refine::refine(&sides, tolerance, progress)?,
+        };
+        let (sun_altitude, sun_azimuth) = what.sun;
         Ok(Self { above, below, horizon: what.horizon, sun_altitude, sun_azimuth, terms, discs })
+    }
+
+    /// The directions that were gathered, altitude and azimuth [radians, from north through east]: all on the counterclockwise side of the Sun, whose other side follows by symmetry.
+    pub fn sample_directions(&self) -> Vec<[f64; 2]> {
+        let of_half = |half: &Half, way: f64| -> Vec<[f64; 2]> {
+            let step = PI / (half.azimuths - 1) as f64;
+            let circles = half.circles.nodes().iter().map(|position| self.horizon + way * position * position);
+            circles.flat_map(|altitude| (0..half.azimuths).map(move |a| [altitude, self.sun_azimuth - step * a as f64])).collect()
+        };
+        [of_half(&self.above, FRAC_PI_2 - self.horizon), of_half(&self.below, -FRAC_PI_2 - self.horizon)].concat()
     }
 }
 
-impl Half {
-    fn gather(
-        what: &Gathering,
-        terms: &Terms,
-        count: usize,
-        altitude: impl Fn(f64) -> f64 + Sync,
-        parts: &crate::progress::Parts,
-    ) -> Result<Self> {
-        let azimuths: Vec<f64> =
-            (0..what.numbers.dome_azimuths).map(|a| PI * a as f64 / (what.numbers.dome_azimuths - 1) as f64).collect();
-        let positions: Vec<f64> = (0..count).map(|c| c as f64 / (count - 1) as f64).collect();
-        let rows = positions
-            .par_iter()
-            .map(|position| {
-                let gathered = what.field.gather(&what.observer, altitude(position * position).sin(), &azimuths);
-                let mut row = Vec::with_capacity(azimuths.len() * terms.count);
-                for a in 0..azimuths.len() {
-                    terms.push_fields(&gathered, a, &what.weights, &mut row);
-                }
-                parts.finish_one()?;
-                Ok(row)
-            })
-            .collect::<Result<Vec<_>>>()?;
-        let odd = terms.filter.map(|_| terms.count - 1);
-        Ok(Self { circles: Axis::new(positions), azimuths: azimuths.len(), fields: terms.count, odd, values: rows.concat() })
+/// The sky or the ground of a dome that is being gathered.
+struct Side<'a> {
+    what: &'a Gathering<'a>,
+    terms: &'a Terms,
+    above: bool,
+}
+
+impl Side<'_> {
+    /// Altitude of the circle at `position`, the square root of the share of the way from the horizon.
+    fn altitude(&self, position: f64) -> f64 {
+        // A hair inside each side, so that the ray along the horizon is on the side it belongs to.
+        const HAIR: f64 = 1e-7;
+        let (horizon, share) = (self.what.horizon, position * position);
+        if self.above {
+            horizon + HAIR + (FRAC_PI_2 - horizon - HAIR) * share
+        } else {
+            horizon - HAIR - (FRAC_PI_2 + horizon - HAIR) * share
+        }
+    }
+
+    /// XYZ of each field, (azimuth, field), on the circle at `position` in `azimuths` from the Sun.
+    fn gather(&self, position: f64, azimuths: &[f64]) -> Vec<[f32; 3]> {
+        let gathered = self.what.field.gather(&self.what.observer, self.altitude(position).sin(), azimuths);
+        let mut row = Vec::with_capacity(azimuths.len() * self.terms.count);
+        for a in 0..azimuths.len() {
+            self.terms.push_fields(&gathered, a, &self.what.weights, &mut row);
+        }
+        row
+    }
+
+    /// The half with `circles` circles at even positions.
+    fn even(&self, circles: usize, parts: &Parts) -> Result<Half> {
+        let last = self.what.numbers.dome_azimuths - 1;
+        let azimuths: Vec<f64> = (0..=last).map(|a| PI * a as f64 / last as f64).collect();
+        let positions: Vec<f64> = (0..circles).map(|c| c as f64 / (circles - 1) as f64).collect();
+        let gather = |position: &f64| {
+            let row = self.gather(*position, &azimuths);
+            parts.finish_one().map(|()| row)
+        };
+        let rows = positions.par_iter().map(gather).collect::<Result<Vec<_>>>()?;
+        Ok(self.half(positions, azimuths.len(), &rows))
+    }
+
+    fn half(&self, positions: Vec<f64>, azimuths: usize, rows: &[Vec<[f32; 3]>]) -> Half {
+        let odd = self.terms.filter.map(|_| self.terms.count - 1);
+        Half { circles: Axis::new(positions), azimuths, fields: self.terms.count, odd, values: rows.concat() }
     }
 }
 
@@ -263,27 +292,7 @@ impl<'a> Circle<'a> {
 fn shade(circle: &Circle, terms: &Terms, places: &Places, factors: &mut [[f32; CHUNK]], out: &mut [[f32; 3]]) {
     let count = out.len();
     let intervals = circle.half.azimuths - 1;
-    // Haversine of the angle to the Sun: exact for small angles in single precision.
-    let height = (0.5 * (places.altitude - places.sun_altitude)).sin().powi(2) as f32;
-    let cosines = (places.altitude.cos() * places.sun_altitude.cos()) as f32;
-    let mut haversines = [0.0_f32; CHUNK];
-    let mut positions = [0.0_f32; CHUNK];
-    let mut from_sun = [0.0_f32; CHUNK];
-    for i in 0..count {
-        let turns = (places.azimuths[i] - places.sun_azimuth) * (1.0 / TAU);
-        from_sun[i] = (turns - turns.round()) as f32;
-    }
-    for i in 0..CHUNK {
-        let sine = half_sine(from_sun[i]);
-        haversines[i] = height + cosines * sine * sine;
-        positions[i] = 2.0 * from_sun[i].abs() * intervals as f32;
-    }
-    let mut first = 0;
-    for functions in terms.functions.iter() {
-        functions.values(&haversines[..count], &mut factors[first..first + functions.len()]);
-        first += functions.len();
-    }
-    factors[first] = [1.0; CHUNK];
+    let positions = angular_factors(terms, places, factors).map(|from_sun| 2.0 * from_sun.abs() * intervals as f32);
     if let Some(filter) = &terms.filter {
         filter_factors(terms, filter, places, factors);
     }
@@ -307,6 +316,32 @@ fn shade(circle: &Circle, terms: &Terms, places: &Places, factors: &mut [[f32; C
     for (i, pixel) in out.iter_mut().enumerate() {
         *pixel = [xyz[0][i].max(0.0), xyz[1][i].max(0.0), xyz[2][i].max(0.0)];
     }
+}
+
+/// Writes the functions of the scattering angle to the factors of the fields, and 1 for the rest; returns the azimuths from the Sun [turns, -1/2 to 1/2].
+#[inline(always)]
+fn angular_factors(terms: &Terms, places: &Places, factors: &mut [[f32; CHUNK]]) -> [f32; CHUNK] {
+    let count = places.azimuths.len();
+    // Haversine of the angle to the Sun: exact for small angles in single precision.
+    let height = (0.5 * (places.altitude - places.sun_altitude)).sin().powi(2) as f32;
+    let cosines = (places.altitude.cos() * places.sun_altitude.cos()) as f32;
+    let mut haversines = [0.0_f32; CHUNK];
+    let mut from_sun = [0.0_f32; CHUNK];
+    for (from_sun, azimuth) in from_sun.iter_mut().zip(places.azimuths) {
+        let turns = (azimuth - places.sun_azimuth) * (1.0 / TAU);
+        *from_sun = (turns - turns.round()) as f32;
+    }
+    for (haversine, &from_sun) in haversines.iter_mut().zip(&from_sun) {
+        let sine = half_sine(from_sun);
+        *haversine = height + cosines * sine * sine;
+    }
+    let mut first = 0;
+    for functions in terms.functions.iter() {
+        functions.values(&haversines[..count], &mut factors[first..first + functions.len()]);
+        first += functions.len();
+    }
+    factors[first] = [1.0; CHUNK];
+    from_sun
 }
 
 /// Adds what the filter makes of Q and U to the factors of the fields.

@@ -17,7 +17,8 @@ pub struct PolarisingFilter {
     /// Angle of the filter's axis from the vertical [degrees, clockwise as seen by the observer], -180 to 180.
     #[serde(default)]
     pub angle_deg: f64,
-    /// Altitude and azimuth [degrees] towards which the filter is held, one piece of glass for the whole picture. Without it the filter turns with the view: in
+    /// Altitude and azimuth [degrees] towards which the filter is held, one piece of glass for the whole picture: in other directions it acts by its axis as it is
+    /// seen from there, and with the square of the sine of the angle between axis and view less. Without it the filter turns with the view: in
     /// every direction its axis stands at the same angle from the vertical.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held_towards_deg: Option<[f64; 2]>,
@@ -57,11 +58,9 @@ impl PolarisingFilter {
         let [up, right] = up_and_right(towards[0].to_radians(), towards[1].to_radians());
         let axis = angle.cos() * up + angle.sin() * right;
         let [up, right] = up_and_right(altitude, azimuth);
+        // Along its own axis the glass is seen edge on and has no direction: towards it the filter fades out, or the picture would have a vortex there.
         let (a, b) = (axis.dot(up), axis.dot(right));
-        // Along its own axis the glass is seen edge on and has no direction: there it fades out.
-        let square = a * a + b * b;
-        let fade = self.strength / square.max(1e-6);
-        [fade * (a * a - b * b), fade * 2.0 * a * b]
+        [self.strength * (a * a - b * b), self.strength * 2.0 * a * b]
     }
 }
 
@@ -81,9 +80,15 @@ mod tests {
         let held = PolarisingFilter { held_towards_deg: Some([40.0, 200.0]), ..turning };
         let (a, b) = (turning.weights(0.3, 1.0), held.weights(40_f64.to_radians(), 200_f64.to_radians()));
         assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12, "{a:?} {b:?}");
-        // Elsewhere its axis stands otherwise, with the same strength.
+        // Elsewhere its axis stands otherwise, and its strength goes with the square of the sine of the angle to the axis.
+        let [up, right] = up_and_right(40_f64.to_radians(), 200_f64.to_radians());
+        let axis = 30_f64.to_radians().cos() * up + 30_f64.to_radians().sin() * right;
+        let view = DVec3::new(0.2_f64.cos() * 1_f64.sin(), 0.2_f64.cos() * 1_f64.cos(), 0.2_f64.sin());
         let c = held.weights(0.2, 1.0);
-        assert!((c[0].hypot(c[1]) - 0.8).abs() < 1e-12 && (c[0] - a[0]).abs() > 0.01);
+        assert!((c[0].hypot(c[1]) - 0.8 * (1.0 - axis.dot(view).powi(2))).abs() < 1e-12 && (c[0] - a[0]).abs() > 0.01);
+        // Along the axis there is nothing left, from whichever side one comes.
+        let (altitude, azimuth) = (axis.z.asin(), axis.x.atan2(axis.y));
+        assert!(held.weights(altitude, azimuth).into_iter().all(|weight| weight.abs() < 1e-12));
     }
 
     #[test]

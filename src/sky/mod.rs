@@ -12,12 +12,13 @@ pub mod preetham;
 mod thesis;
 
 pub use atmosphere::Atmosphere;
+pub(crate) use atmosphere::check_chosen as check_chosen_wavelengths;
 pub use cache::Cache;
 pub use disc::Disc;
 pub use dome::SkyDome;
 pub use filter::PolarisingFilter;
 pub use irradiance::{Illuminance, Irradiance};
-pub use model::Model;
+pub use model::{LightOptions, Model};
 pub use place_and_time::Sky;
 pub use preetham::Preetham;
 pub use thesis::ThesisSky;

@@ -2,10 +2,11 @@
 
 use super::SkyLight;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING};
+use super::filter::PolarisingFilter;
 use super::place_and_time::Sky;
 use super::preetham::Preetham;
 use super::thesis::ThesisSky;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_range};
 use crate::light::{Thesis, ThesisOptions};
 use crate::progress::Progress;
 use crate::spectrum::{solar, wavelengths, xyz_weights};
@@ -54,14 +55,63 @@ impl FromStr for Model {
     }
 }
 
-impl Sky {
-    /// All light around the observer by `model`, ready to be made into a probe.
+/// By which model, through which filter and how exactly a sky is rendered.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LightOptions {
+    /// The model.
+    pub model: Model,
+    /// What is held before the sky; for [`Model::Scattering`] of polarised light only.
+    pub polarising_filter: Option<PolarisingFilter>,
+    /// Relative error that interpolation between gathered directions may have, 0.0001 to 0.5: directions are added until those that were not there before agree.
+    /// Without it their number is that of the quality. For [`Model::Scattering`] only.
+    pub tolerance: Option<f64>,
+}
+
+/// Checks a tolerance.
+pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
+    check_range("tolerance", tolerance, 1e-4, 0.5, "")
+}
+
+impl LightOptions {
+    /// Checks the numbers, and that the model can do what is asked for.
     ///
     /// # Errors
-    /// As [`Sky::light`]; [`Error::Input`] for a sky that the model cannot make.
-    pub fn light_by(&self, model: Model, progress: &Progress) -> Result<Box<dyn SkyLight + Send>> {
-        match model {
-            Model::Scattering => Ok(Box::new(self.light(progress)?)),
+    /// [`Error::Input`] that names the parameter.
+    pub fn validate(&self) -> Result<()> {
+        let left_out = || format!("left out for the model {}", self.model.name());
+        if let Some(filter) = &self.polarising_filter {
+            filter.validate()?;
+            if self.model != Model::Scattering {
+                return Err(Error::input("polarising_filter", "given", left_out()));
+            }
+        }
+        if let Some(tolerance) = self.tolerance {
+            check_tolerance(tolerance)?;
+            if self.model != Model::Scattering {
+                return Err(Error::input("tolerance", tolerance, left_out()));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl From<Model> for LightOptions {
+    fn from(model: Model) -> Self {
+        Self { model, ..Self::default() }
+    }
+}
+
+impl Sky {
+    /// All light around the observer as `options` say, ready to be made into a probe.
+    ///
+    /// # Errors
+    /// As [`Sky::filtered_light`]; [`Error::Input`] for a sky that the model cannot make, or options that it does not know.
+    pub fn light_by(&self, options: &LightOptions, progress: &Progress) -> Result<Box<dyn SkyLight + Send>> {
+        options.validate()?;
+        match options.model {
+            Model::Scattering => {
+                Ok(Box::new(self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?))
+            }
             Model::Preetham => Ok(Box::new(self.preetham()?)),
             Model::Thesis => Ok(Box::new(self.thesis(ThesisOptions::default())?)),
             Model::ThesisSingle => Ok(Box::new(self.thesis(ThesisOptions { secondary_rays: 0, ..Default::default() })?)),
@@ -144,7 +194,7 @@ mod tests {
         let parameters = AirParameters { turbidity: Some(2.2), ..Default::default() };
         let air = Arc::new(Atmosphere::new(&parameters, Quality::Draft, true).unwrap());
         let sky = Sky::with_sun(50.0, 180.0, 0.0, air).unwrap();
-        let light = |model: Model| sky.light_by(model, &Progress::silent()).unwrap();
+        let light = |model: Model| sky.light_by(&model.into(), &Progress::silent()).unwrap();
         let solved = light(Model::Scattering);
         let many = ThesisOptions { samples: 60, step: 0.1, secondary_rays: 4, bounces: 1 };
         let thesis = sky.thesis(many).unwrap();

@@ -5,6 +5,7 @@ use super::disc::{Disc, SOLAR_LIMB_DARKENING};
 use super::dome::{Gathering, SkyDome};
 use super::filter::PolarisingFilter;
 use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal};
+use super::model::check_tolerance;
 use crate::atmosphere::molecules;
 use crate::ephemeris::{Body, Place, Refraction, SunModel, horizontal_from_direction, sun, sun_at};
 use crate::error::{Error, Result, check_range};
@@ -208,17 +209,27 @@ impl Sky {
     /// # Errors
     /// As [`Self::illuminance`].
     pub fn light(&self, progress: &Progress) -> Result<SkyDome> {
-        self.filtered_light(None, progress)
+        self.filtered_light(None, None, progress)
     }
 
-    /// The same, seen through a polarising filter.
+    /// The same, seen through a polarising filter, or with directions gathered until interpolation between them is within `tolerance` (relative, as
+    /// [`LightOptions::tolerance`](super::LightOptions)) rather than at the directions of the quality.
     ///
     /// # Errors
-    /// As [`Self::light`]; [`Error::Input`] if there is a filter and the atmosphere was made without polarisation.
-    pub fn filtered_light(&self, filter: Option<&PolarisingFilter>, progress: &Progress) -> Result<SkyDome> {
-        if filter.is_some() && !self.atmosphere.is_polarised() {
-            return Err(Error::input("polarisation", "false", "true, to see the sky through a polarising filter"));
+    /// As [`Self::light`]; [`Error::Input`] for a filter or a tolerance out of range, and if there is a filter and the atmosphere was made without polarisation.
+    pub fn filtered_light(
+        &self,
+        filter: Option<&PolarisingFilter>,
+        tolerance: Option<f64>,
+        progress: &Progress,
+    ) -> Result<SkyDome> {
+        if let Some(filter) = filter {
+            filter.validate()?;
+            if !self.atmosphere.is_polarised() {
+                return Err(Error::input("polarisation", "false", "true, to see the sky through a polarising filter"));
+            }
         }
+        tolerance.map(check_tolerance).transpose()?;
         let weights = self.xyz_weights()?;
         let field = self.field(progress)?;
         let (observer, horizon) = (self.observer(), self.horizon());
@@ -227,11 +238,13 @@ impl Sky {
             field,
             numbers: &self.atmosphere.quality().numbers(),
             filter: filter.copied(),
+            tolerance,
             weights,
             observer,
             horizon,
+            sun: (self.sun.altitude_deg.to_radians(), self.sun.azimuth_deg.to_radians()),
         };
-        SkyDome::gather(&what, (self.sun.altitude_deg.to_radians(), self.sun.azimuth_deg.to_radians()), discs, progress)
+        SkyDome::gather(&what, discs, progress)
     }
 
     fn field(&self, progress: &Progress) -> Result<&LightField> {
@@ -381,29 +394,35 @@ mod tests {
         xyz
     }
 
+    /// Rms and largest relative error of Y of `dome` against gathers in just those directions, and where the largest is.
+    fn errors(sky: &Sky, dome: &SkyDome) -> (f64, (f64, f64, f64)) {
+        let mut squares = 0.0;
+        let mut worst = (0.0_f64, 0.0, 0.0);
+        let n = 300;
+        for i in 0..n {
+            // Spiral over the whole sphere.
+            let altitude = (1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(n)).asin();
+            let azimuth = 2.399_963 * f64::from(i) % std::f64::consts::TAU;
+            let mut seen = [[0.0; 3]];
+            dome.radiance_circle(altitude, &[azimuth], &mut seen);
+            let expected = directly(sky, altitude, azimuth);
+            let error = f64::from(seen[0][1]) / expected[1] - 1.0;
+            squares += error * error;
+            if error.abs() > worst.0.abs() {
+                worst = (error, altitude.to_degrees(), azimuth.to_degrees());
+            }
+        }
+        ((squares / f64::from(n)).sqrt(), worst)
+    }
+
+    const SUNS_AND_HEIGHTS: [(f64, f64); 6] = [(60.0, 0.0), (20.0, 0.0), (3.0, 0.0), (-2.0, 0.0), (-6.0, 0.0), (30.0, 10_000.0)];
+
     #[test]
     fn the_dome_is_what_is_gathered_in_each_direction() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
-        for (sun, elevation) in [(60.0, 0.0), (20.0, 0.0), (3.0, 0.0), (-2.0, 0.0), (-6.0, 0.0), (30.0, 10_000.0)] {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+        for (sun, elevation) in SUNS_AND_HEIGHTS {
             let sky = sky(&atmosphere, sun, elevation);
-            let dome = sky.light(&Progress::silent()).unwrap();
-            let mut squares = 0.0;
-            let mut worst = (0.0_f64, 0.0, 0.0);
-            let n = 300;
-            for i in 0..n {
-                // Spiral over the whole sphere.
-                let altitude = (1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(n)).asin();
-                let azimuth = 2.399_963 * f64::from(i) % std::f64::consts::TAU;
-                let mut seen = [[0.0; 3]];
-                dome.radiance_circle(altitude, &[azimuth], &mut seen);
-                let expected = directly(&sky, altitude, azimuth);
-                let error = f64::from(seen[0][1]) / expected[1] - 1.0;
-                squares += error * error;
-                if error.abs() > worst.0.abs() {
-                    worst = (error, altitude.to_degrees(), azimuth.to_degrees());
-                }
-            }
-            let rms = (squares / f64::from(n)).sqrt();
+            let (rms, worst) = errors(&sky, &sky.light(&Progress::silent()).unwrap());
             println!(
                 "Sun {sun}, {elevation} m: rms {:.3} %, worst {:+.2} % at {:.1} {:.1}",
                 100.0 * rms,
@@ -416,19 +435,99 @@ mod tests {
     }
 
     #[test]
-    fn a_new_time_place_or_height_needs_no_new_solve() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+    fn a_tolerance_holds_and_a_looser_one_costs_less() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+        for (sun, elevation) in SUNS_AND_HEIGHTS {
+            let sky = sky(&atmosphere, sun, elevation);
+            let mut costs = Vec::new();
+            let mut found = Vec::new();
+            for tolerance in [0.2, 0.05, 0.01, 0.001] {
+                let dome = sky.filtered_light(None, Some(tolerance), &Progress::silent()).unwrap();
+                let (rms, worst) = errors(&sky, &dome);
+                costs.push(dome.sample_directions().len());
+                found.push(rms);
+                println!(
+                    "Sun {sun}, {elevation} m, tolerance {tolerance}: {} samples, rms {:.4} %, worst {:+.3} % at {:.1} {:.1}",
+                    costs[costs.len() - 1],
+                    100.0 * rms,
+                    100.0 * worst.0,
+                    worst.1,
+                    worst.2
+                );
+                assert!(rms < 2.0 * tolerance, "Sun at {sun}: rms {rms}, worst {worst:?}");
+            }
+            assert!(costs.is_sorted() && costs[0] < costs[3], "{costs:?}");
+            assert!(found[3] < 0.6 * found[0], "{found:?}");
+        }
+        let low = sky(&atmosphere, 10.0, 0.0);
+        let refused = low.filtered_light(None, Some(0.0), &Progress::silent()).err().unwrap().to_string();
+        assert!(refused.starts_with("tolerance = 0: must be a number from 0.0001 to 0.5"), "{refused}");
+    }
+
+    /// Through a filter the light is I + strength (Q cos 2c + U sin 2c) of the Stokes parameters, at every side of the Sun.
+    #[test]
+    fn a_tolerance_holds_through_a_filter_too() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+        let sky = sky(&atmosphere, 25.0, 0.0);
+        let filter = PolarisingFilter { strength: 0.9, angle_deg: 35.0, held_towards_deg: Some([30.0, 100.0]) };
+        let dome = sky.filtered_light(Some(&filter), Some(0.01), &Progress::silent()).unwrap();
+        let weights = sky.xyz_weights().unwrap();
+        let field = sky.field(&Progress::silent()).unwrap();
+        let mut squares = 0.0;
+        let n = 150;
+        for i in 0..n {
+            let altitude = (1.0 - (f64::from(i) + 0.5) / f64::from(n)).asin();
+            let azimuth = 2.399_963 * f64::from(i) % std::f64::consts::TAU;
+            let direction = DVec3::new(altitude.cos() * azimuth.sin(), altitude.cos() * azimuth.cos(), altitude.sin());
+            let [q, u] = filter.weights(altitude, azimuth);
+            let rows = sky
+                .gather_each(field, &[direction], &Progress::silent(), |gathered, look| {
+                    let through = |w: usize| {
+                        let stokes = field.stokes(gathered, 0, w, look.transverse, look.cosine);
+                        (stokes[0] + q * stokes[1] + u * stokes[2]) * weights[w][1]
+                    };
+                    (0..gathered.wavelengths).map(through).sum::<f64>()
+                })
+                .unwrap();
+            let mut seen = [[0.0; 3]];
+            dome.radiance_circle(altitude, &[azimuth], &mut seen);
+            squares += (f64::from(seen[0][1]) / rows[0] - 1.0).powi(2);
+        }
+        let rms = (squares / f64::from(n)).sqrt();
+        println!("through a filter: {} samples, rms {:.4} %", dome.sample_directions().len(), 100.0 * rms);
+        assert!(rms < 0.01, "{rms}");
+    }
+
+    /// North turns the finished picture where it is shown (a mapping, a transform): it is no part of a probe and cannot cause a solve either.
+    #[test]
+    fn a_new_time_place_height_or_sun_needs_no_new_solve() {
+        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
         assert!(!atmosphere.is_solved());
         let stages = std::sync::Mutex::new(Vec::new());
         let listen = |stage: &str, _: f64| {
             stages.lock().unwrap().push(stage.to_string());
             true
         };
-        sky(&atmosphere, 30.0, 0.0).light(&Progress::new(&listen)).unwrap();
+        let progress = Progress::new(&listen);
+        sky(&atmosphere, 30.0, 0.0).light(&progress).unwrap();
         assert!(stages.lock().unwrap().iter().any(|stage| stage == "solve"));
         stages.lock().unwrap().clear();
-        sky(&atmosphere, -3.0, 2500.0).light(&Progress::new(&listen)).unwrap();
-        assert!(stages.lock().unwrap().iter().all(|stage| stage == "gather"));
+        sky(&atmosphere, -3.0, 2500.0).light(&progress).unwrap();
+        for (latitude, longitude, elevation, text, model) in [
+            (55.7, 13.2, 0.0, "2005-06-21T11:00Z", SunModel::Iau),
+            (55.7, 13.2, 0.0, "2005-06-21T20:30Z", SunModel::Iau),
+            (-33.9, 151.2, 0.0, "2005-06-21T20:30Z", SunModel::Iau),
+            (-33.9, 151.2, 8000.0, "2005-06-21T20:30Z", SunModel::Iau),
+            (-33.9, 151.2, 8000.0, "2005-06-21T20:30Z", SunModel::Thesis),
+        ] {
+            let place = Place::new(latitude, longitude, elevation).unwrap();
+            let time = Time::parse(text, crate::time::ZoneChoice::Named("UTC")).unwrap();
+            let sky = Sky::new(place, time, model, Arc::clone(&atmosphere)).unwrap();
+            sky.filtered_light(Some(&PolarisingFilter::default()), Some(0.1), &progress).unwrap();
+            sky.illuminance(&progress).unwrap();
+        }
+        let stages = stages.lock().unwrap();
+        assert!(!stages.is_empty() && stages.iter().all(|stage| stage == "gather"), "{stages:?}");
     }
 
     #[test]

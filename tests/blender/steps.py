@@ -188,7 +188,30 @@ def choices():
                 skyprobe.Atmosphere(**{"preset": "clear", keyword: name})
             except ValueError as error:
                 refused[f"{keyword} {name}"] = str(error)
+    scene = set_up(filter_mode="HELD", filter_angle=np.radians(30.0), filter_azimuth=np.radians(90.0))
+    for switch, name in properties.OPTIONAL_AIR:
+        setattr(scene.skyprobe, switch, True)
+    for make, keywords in (
+        (skyprobe.Atmosphere, properties.air(scene.skyprobe)),
+        (skyprobe.PolarisingFilter, properties.polarising_filter(scene.skyprobe)),
+    ):
+        try:
+            make(**keywords)
+        except (TypeError, ValueError) as error:
+            refused[make.__name__] = str(error)
     return refused
+
+
+def filtered():
+    """Render a probe without and with a filter; tell how its mean changes, and what the filter was."""
+    scene = set_up(sun_mode="LAMP")
+    answer = {}
+    for mode in ("NONE", "VIEW", "HELD"):
+        scene.skyprobe.filter_mode = mode
+        bpy.ops.skyprobe.render()
+        upper = pixels_of(scene.skyprobe.image)[:128]
+        answer[mode] = {"mean": float(upper.mean()), "keywords": part("properties").polarising_filter(scene.skyprobe)}
+    return answer
 
 
 def time_texts():

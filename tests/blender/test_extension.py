@@ -96,6 +96,15 @@ def test_the_library_knows_every_air_of_the_panel(host):
     assert host.run("steps.choices") == {}
 
 
+def test_a_polarising_filter_changes_the_sky(host):
+    answer = host.run("steps.filtered")
+    assert answer["NONE"]["keywords"] is None
+    assert answer["VIEW"]["keywords"] == {"strength": 1.0, "angle_deg": 0.0}
+    assert answer["HELD"]["keywords"] == {"strength": 1.0, "angle_deg": 0.0, "held_towards_deg": [20.0, 0.0]}
+    for mode in ("VIEW", "HELD"):
+        assert 0.01 < abs(answer[mode]["mean"] / answer["NONE"]["mean"] - 1.0) < 0.5, answer
+
+
 def test_the_time_says_its_zone(host):
     assert host.run("steps.time_texts") == {
         "PLACE": "2025-06-21T13:30:00",

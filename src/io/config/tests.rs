@@ -23,6 +23,15 @@ fn wrong_input_names_the_key_with_its_table() {
         (r#"{"atmosphere": {"turbidty": 2}}"#, "unknown key atmosphere.turbidty = 2: must be left out, or one of preset"),
         (r#"{"atmosphere": {"quality": "best"}}"#, r#"atmosphere.quality = "best": must be one of draft"#),
         (r#"{"atmosphere": {"ground": "lava"}}"#, r#"atmosphere.ground = "lava": must be "#),
+        (r#"{"atmosphere": {"wavelengths_nm": [200]}}"#, "atmosphere.wavelengths_nm = 200: must be a number from 300 to 1000 nm"),
+        (r#"{"polarising_filter": {"strength": 2}}"#, "polarising_filter.strength = 2: must be a number from 0 to 1"),
+        (
+            r#"{"polarising_filter": {"angle": 2}}"#,
+            "unknown key polarising_filter.angle = 2: must be left out, or one of strength",
+        ),
+        (r#"{"tolerance": 2}"#, "tolerance = 2: must be a number from 0.0001 to 0.5"),
+        (r#"{"tolerance": 0.1, "model": "preetham"}"#, "tolerance = 0.1: must be left out for the model preetham"),
+        (r#"{"polarising_filter": {}, "model": "thesis"}"#, "polarising_filter = given: must be left out for the model thesis"),
         (r#"{"atmosphere": []}"#, "atmosphere = []: must be a table"),
         (r#"{"probe": {"width": 0}}"#, "probe.width = 0: must be a number from 64 to 16384 pixels"),
         (r#"{"probe": {"width": 64.5}}"#, "probe.width = 64.5: must be a whole number"),
@@ -44,7 +53,7 @@ fn wrong_input_names_the_key_with_its_table() {
 #[test]
 fn unknown_keys_of_the_air_are_told_about_the_keys_of_the_solver_too() {
     let message = message(r#"{"atmosphere": {"qualty": "high"}}"#);
-    assert!(message.ends_with("quality, polarisation"), "{message}");
+    assert!(message.ends_with("quality, polarisation, wavelengths_nm"), "{message}");
 }
 
 #[test]
@@ -86,11 +95,13 @@ fn any_air() -> impl Strategy<Value = AtmosphereConfig> {
     let presets = select(vec![Preset::Clear, Preset::Hazy, Preset::Antarctic]);
     let aerosols = optional(select(vec![AerosolType::Urban, AerosolType::Desert]));
     let qualities = select(vec![Quality::Draft, Quality::Standard, Quality::High, Quality::Reference]);
-    (presets, aerosols, optional(1.0..=64.0), optional(0.0..=1000.0), optional(grounds), qualities).prop_map(
-        |(preset, aerosol, turbidity, ozone_du, ground, quality)| AtmosphereConfig {
+    let solve = (qualities, any::<bool>(), optional(select(vec![vec![350.0, 550.5], vec![1000.0]])));
+    (presets, aerosols, optional(1.0..=64.0), optional(0.0..=1000.0), optional(grounds), solve).prop_map(
+        |(preset, aerosol, turbidity, ozone_du, ground, (quality, polarisation, wavelengths_nm))| AtmosphereConfig {
             air: AirParameters { preset, aerosol, turbidity, ozone_du, ground, ..AirParameters::default() },
             quality,
-            polarisation: false,
+            polarisation,
+            wavelengths_nm,
         },
     )
 }
@@ -122,6 +133,17 @@ fn any_probe() -> impl Strategy<Value = ProbeSettings> {
     })
 }
 
+fn any_light() -> impl Strategy<Value = LightOptions> {
+    let filter = (0.0..=1.0_f64, -180.0..=180.0_f64, optional([-90.0..=90.0_f64, -360.0..=360.0_f64]));
+    let filter =
+        filter.prop_map(|(strength, angle_deg, held_towards_deg)| PolarisingFilter { strength, angle_deg, held_towards_deg });
+    (optional(filter), optional(1e-4..=0.5)).prop_map(|(polarising_filter, tolerance)| LightOptions {
+        model: Model::Scattering,
+        polarising_filter,
+        tolerance,
+    })
+}
+
 fn any_config() -> impl Strategy<Value = Config> {
     let place = (-90.0..=90.0_f64, -180.0..=180.0_f64, select(vec!["2005-06-21T13:00:00+02:00", "1987-01-02T03:04"]));
     let sun = (-90.0..=90.0_f64, -360.0..=360.0_f64);
@@ -129,10 +151,20 @@ fn any_config() -> impl Strategy<Value = Config> {
     let zone = optional(select(vec!["Europe/Stockholm".to_string(), "UTC".to_string()]));
     let files = (select(vec![Half::Off, Half::Refuse, Half::Scale]), -20.0..=20.0_f64);
     let output = proptest::collection::vec("[a-z ]{1,8}\\.exr".prop_map(PathBuf::from), 0..3);
-    (sky, zone, -500.0..=60_000.0_f64, select(vec![SunModel::Iau, SunModel::Thesis]), any_air(), any_probe(), files, output)
-        .prop_map(|(sky, zone, elevation_m, sun_model, atmosphere, probe, (half, exposure_stops), output)| {
+    (
+        sky,
+        zone,
+        -500.0..=60_000.0_f64,
+        select(vec![SunModel::Iau, SunModel::Thesis]),
+        any_air(),
+        any_probe(),
+        any_light(),
+        files,
+        output,
+    )
+        .prop_map(|(sky, zone, elevation_m, sun_model, atmosphere, probe, light, (half, exposure_stops), output)| {
             let file = FileOptions { half, exposure_stops };
-            let common = Config { elevation_m, zone, sun_model, atmosphere, probe, file, output, ..Config::default() };
+            let common = Config { elevation_m, zone, sun_model, light, atmosphere, probe, file, output, ..Config::default() };
             match sky {
                 Ok((latitude, longitude, time)) => {
                     Config { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
