@@ -17,7 +17,7 @@ os.environ.setdefault("SKYPROBE_CACHE", "off")
 
 from common import ROOT, Skipped  # noqa: E402
 
-PARTS = ["tables", "measured_skies", "standard_spectrum", "day", "twilight", "colour", "other_models"]
+PARTS = ["tables", "measured_skies", "standard_spectrum", "day", "twilight", "convergence", "colour", "other_models"]
 DOCUMENT = ROOT / "docs" / "validation.md"
 
 
