@@ -89,8 +89,9 @@ def report() -> str:
         for name, air in (("aerosol optical depth 0.018", thin), ("turbidity 3", hazy)):
             sky = sp.Sky.with_sun(altitude_deg=sun, azimuth_deg=0.0, atmosphere=air)
             ours[name] = LUMINOUS_EFFICACY * to_xyz(sky.spectral_radiance(arc(), WAVELENGTHS_NM), WAVELENGTHS_NM)[:, 1]
-        direction = np.array([0.0, np.cos(np.radians(sun)), np.sin(np.radians(sun))])
-        # Its radiance at the horizon and below the Sun's zero altitude is not defined: Sun below the horizon is black.
+        # `sunsky` is black under a Sun at 0 degrees and lower; a hair higher it is not.
+        height = np.radians(max(sun, 0.05))
+        direction = np.array([0.0, np.cos(height), np.sin(height)])
         theirs = LUMINOUS_EFFICACY * to_xyz(mitsuba_radiance(arc(), WAVELENGTHS_NM, direction, 3.0, 0.1), WAVELENGTHS_NM)[:, 1] if sun >= 0 else None
         other = np.array(render[f"{sun:g}"]) if render else None
         for color, (name, values) in zip(("C0", "C1"), ours.items(), strict=True):

@@ -50,7 +50,7 @@ def transposed(tilted: np.ndarray, kept: np.ndarray) -> str:
     sun, theirs = (np.interp(BANDS_NM, result["wavelength"], np.ravel(result[key])) for key in ("dni_extra", "poa_global"))
     error = (tilted / (theirs / sun) - 1)[kept]
     return (
-        f"\nGlobal irradiance of the same plane against SPECTRL2 in the same air: mean {100 * error.mean():+.2f} %, rms {100 * rms(error):.2f} %, "
+        f"Global irradiance of the same plane against SPECTRL2 in the same air: mean {100 * error.mean():+.2f} %, rms {100 * rms(error):.2f} %, "
         f"largest {100 * np.abs(error).max():.2f} %.\n\n"
     )
 
@@ -77,7 +77,7 @@ def report() -> str:
     )
     own_error = direct * own / given_direct - 1, tilted * own / given_global - 1
     text += f"\nWith the library's spectrum of the Sun (ASTM E490) as it is: direct {100 * rms(own_error[0][kept]):.2f} % rms, largest "
-    text += f"{100 * np.abs(own_error[0][kept]).max():.2f} %; global {100 * rms(own_error[1][kept]):.2f} % rms, largest {100 * np.abs(own_error[1][kept]).max():.2f} %.\n\n"
+    text += f"{100 * np.abs(own_error[0][kept]).max():.2f} %; global {100 * rms(own_error[1][kept]):.2f} % rms, largest {100 * np.abs(own_error[1][kept]).max():.2f} %. "
     text += transposed(tilted, kept)
     rough = []
     for name, changes in (
@@ -89,7 +89,8 @@ def report() -> str:
         other = compute(quality="standard", **changes)
         rough.append([name, *(f"{100 * np.mean((now / before - 1)[kept]):+.2f} %" for now, before in zip(other, (direct, tilted), strict=True))])
     text += markdown(["what the standard leaves open: mean change", "direct", "global"], rough) + "\n"
-    text += markdown(["nm", "G173 direct", "skyprobe", "G173 global", "skyprobe", "E490 against G173 outside", "left out"], rows)
+    table = markdown(["nm", "G173 direct", "skyprobe", "G173 global", "skyprobe", "E490 against G173 outside", "left out"], rows)
+    text += f"<details><summary>All bands [W m-2 nm-1]</summary>\n\n{table}\n</details>\n"
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2))
     left.plot(BANDS_NM, given_direct, "k-", label="G173 direct")
     left.plot(BANDS_NM, given_global, "k--", label="G173 global, 37 deg")
