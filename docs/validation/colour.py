@@ -2,10 +2,18 @@
 
 import numpy as np
 import skyprobe as sp
-from common import directions, markdown, plt, save, to_xyz
+from common import directions, markdown, to_xyz
+from figures import plt, save
 
 WAVELENGTHS_NM = np.linspace(380.0, 740.0, 73)
-LOOK = {"zenith": (90, 0), "45 deg, Sun's side": (45, 0), "45 deg, side": (45, 90), "45 deg, opposite": (45, 180), "10 deg, side": (10, 90), "10 deg, opposite": (10, 180)}
+LOOK = {
+    "zenith": (90, 0),
+    "45 deg, Sun's side": (45, 0),
+    "45 deg, side": (45, 90),
+    "45 deg, opposite": (45, 180),
+    "10 deg, side": (10, 90),
+    "10 deg, opposite": (10, 180),
+}
 SUNS_DEG = [60, 40, 20, 10, 5, 2, 0, -2, -4, -6, -8, -10]
 
 

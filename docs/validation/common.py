@@ -1,23 +1,15 @@
-"""What the parts of the validation share: where tables and plots are, directions, planes, and markdown tables."""
+"""What the parts of the validation share: where tables are, directions, columns, colours, and markdown tables."""
 
 import csv
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-import matplotlib
 import numpy as np
-import skyprobe as sp
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-PLOTS = ROOT / "docs" / "plots"
 LUMINOUS_EFFICACY = 683.0
 FLAT_RADIUS_KM = 6.371e6
-
-plt.rcParams.update({"figure.dpi": 80, "font.size": 8.5, "axes.grid": True, "grid.alpha": 0.3, "legend.fontsize": 7.5})
 
 
 class Skipped(Exception):
@@ -89,11 +81,3 @@ def markdown(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """A markdown table."""
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
     return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]) + "\n"
-
-
-def save(figure: plt.Figure, name: str) -> str:
-    """Keeps a figure in docs/plots; what embeds it in docs/validation.md."""
-    PLOTS.mkdir(exist_ok=True)
-    figure.savefig(PLOTS / name, bbox_inches="tight")
-    plt.close(figure)
-    return f"![{name.removesuffix('.png').replace('_', ' ')}](plots/{name})\n"

@@ -4,7 +4,8 @@ import numpy as np
 import pandas
 import pvlib
 import skyprobe as sp
-from common import markdown, own_table, plt, rms, save
+from common import markdown, rms
+from figures import plt, save
 
 PLACE = {"latitude": 55.71, "longitude": 13.19}
 HEIGHT_M = 20.0
@@ -26,10 +27,12 @@ def spectral_model(angles: pandas.DataFrame, zenith: np.ndarray) -> tuple[np.nda
         alpha=ALPHA,
         scattering_albedo_400nm=0.97,
     )
-    return np.array([
-        [np.trapezoid(np.interp(BANDS_NM, result["wavelength"], values[:, i]), BANDS_NM) for i in range(len(zenith))]
-        for values in (result["dni"], result["dhi"])
-    ])
+    return np.array(
+        [
+            [np.trapezoid(np.interp(BANDS_NM, result["wavelength"], values[:, i]), BANDS_NM) for i in range(len(zenith))]
+            for values in (result["dni"], result["dhi"])
+        ]
+    )
 
 
 def report() -> str:
@@ -45,8 +48,15 @@ def report() -> str:
     for time in times:
         sky = sp.Sky(**PLACE, elevation_m=HEIGHT_M, time=time.isoformat(), atmosphere=air)
         light, lux = sky.irradiance(BANDS_NM), sky.illuminance()
-        rows.append([np.trapezoid(light.direct_normal, BANDS_NM), np.trapezoid(light.diffuse_horizontal, BANDS_NM), lux.direct_normal_lx,
-                     lux.diffuse_horizontal_lx, sky.sun.altitude_deg])
+        rows.append(
+            [
+                np.trapezoid(light.direct_normal, BANDS_NM),
+                np.trapezoid(light.diffuse_horizontal, BANDS_NM),
+                lux.direct_normal_lx,
+                lux.diffuse_horizontal_lx,
+                sky.sun.altitude_deg,
+            ]
+        )
     beam, diffuse, beam_lx, diffuse_lx, altitude = np.array(rows).T
     beam_model, diffuse_model = spectral_model(position, zenith)
     # Broad-band models: the Linke turbidity and Bird's optical depths of the same air.
@@ -55,7 +65,9 @@ def report() -> str:
     turbidity = pvlib.atmosphere.kasten96_lt(airmass, WATER_CM, broad)
     extra = pvlib.irradiance.get_extra_radiation(times).to_numpy()
     ineichen = pvlib.clearsky.ineichen(zenith, airmass, np.median(turbidity), HEIGHT_M, extra)
-    bird = pvlib.clearsky.bird(zenith, airmass, AOD550 * (380 / 550) ** -ALPHA, AOD550 * (500 / 550) ** -ALPHA, WATER_CM, OZONE_DU / 1000, 101325.0, extra, albedo=0.1)
+    bird = pvlib.clearsky.bird(
+        zenith, airmass, AOD550 * (380 / 550) ** -ALPHA, AOD550 * (500 / 550) ** -ALPHA, WATER_CM, OZONE_DU / 1000, 101325.0, extra, albedo=0.1
+    )
     cosine = np.cos(np.radians(zenith))
     total_lx = beam_lx * cosine + diffuse_lx
     band = {
@@ -74,8 +86,15 @@ def report() -> str:
     for name, model in (("Ineichen", ineichen), ("Bird", bird)):
         efficacy = total_lx / np.asarray(model["ghi"])
         share = diffuse_lx / total_lx, np.asarray(model["dhi"]) / np.asarray(model["ghi"])
-        lines.append([name, f"{efficacy[high].mean():.1f} lm/W", f"{efficacy[high].min():.1f}-{efficacy[high].max():.1f}",
-                      f"{share[0][high].mean():.3f}", f"{share[1][high].mean():.3f}"])
+        lines.append(
+            [
+                name,
+                f"{efficacy[high].mean():.1f} lm/W",
+                f"{efficacy[high].min():.1f}-{efficacy[high].max():.1f}",
+                f"{share[0][high].mean():.3f}",
+                f"{share[1][high].mean():.3f}",
+            ]
+        )
     text += markdown(["model, Sun above 20 deg", "illuminance / its broad-band global", "range", "diffuse share of our lux", "of its W m-2"], lines)
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2))
     hour = times.hour + times.minute / 60

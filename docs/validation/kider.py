@@ -62,9 +62,7 @@ def air(haze: Haze, phase: sp.Phase | None = None, ozone_du: float = 0.0, **opti
         sp.Component(scattering=none, absorption=column(z, gas, np.maximum(0.0, 1 - np.abs(z - 25) / 15)), phase=None),
     ]
     options = {"quality": "high", "polarisation": True, "planet_radius_km": 6360.0} | options
-    return sp.Atmosphere.from_profile(
-        z, CENTRES_NM, components, solar_irradiance=sunlight(), ground_albedo=np.interp(CENTRES_NM, GRASS_NM, GRASS), **options
-    )
+    return sp.Atmosphere.from_profile(z, CENTRES_NM, components, solar_irradiance=sunlight(), ground_albedo=np.interp(CENTRES_NM, GRASS_NM, GRASS), **options)
 
 
 class Scan:

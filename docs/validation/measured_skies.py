@@ -2,7 +2,8 @@
 
 import numpy as np
 import skyprobe as sp
-from common import markdown, own_table, plt, rms, save
+from common import markdown, own_table, rms
+from figures import plt, save
 from kider import CENTRES_NM, SCANS, Haze, Scan, air, sunlight
 from scipy.interpolate import CubicSpline
 from scipy.optimize import lsq_linear, minimize_scalar

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import skyprobe as sp
-from common import LUMINOUS_EFFICACY, ROOT, Skipped, directions, markdown, plt, rms, save, to_xyz
+from common import LUMINOUS_EFFICACY, ROOT, Skipped, directions, markdown, rms, to_xyz
+from figures import plt, save
 from kider import CENTRES_NM, SCANS, Scan
 from scipy.optimize import minimize_scalar
 
@@ -28,9 +29,7 @@ def mitsuba_radiance(look: np.ndarray, wavelengths_nm: np.ndarray, sun: np.ndarr
     import mitsuba as mi
 
     mi.set_variant("scalar_spectral")
-    emitter = mi.load_dict(
-        {"type": "sunsky", "sun_direction": [float(v) for v in sun], "turbidity": float(turbidity), "albedo": albedo, "sun_scale": 0.0}
-    )
+    emitter = mi.load_dict({"type": "sunsky", "sun_direction": [float(v) for v in sun], "turbidity": float(turbidity), "albedo": albedo, "sun_scale": 0.0})
     hit = mi.SurfaceInteraction3f()
     padded = np.append(wavelengths_nm, np.full(-len(wavelengths_nm) % 4, wavelengths_nm[-1])).reshape(-1, 4)
     result = np.empty((len(look), padded.size))
@@ -111,12 +110,28 @@ def report() -> str:
             return [f"{values[89:91].mean():.3g}", f"{ratio[89:91].mean():.2f}", f"{ratio[kept].min():.2f}-{ratio[kept].max():.2f}"]
 
         thin_arc, hazy_arc = ours.values()
-        rows.append([sun, f"{hazy_arc[89:91].mean():.3g}", *compare(theirs, hazy_arc), f"{thin_arc[89:91].mean():.3g}",
-                     *(compare(other, thin_arc) if render else ["-"] * 3)])
+        rows.append(
+            [
+                sun,
+                f"{hazy_arc[89:91].mean():.3g}",
+                *compare(theirs, hazy_arc),
+                f"{thin_arc[89:91].mean():.3g}",
+                *(compare(other, thin_arc) if render else ["-"] * 3),
+            ]
+        )
     axes[0, 0].set_ylabel("luminance [cd m-2]")
     axes[0, 0].legend()
-    header = ["Sun [deg]", "skyprobe, turbidity 3: zenith [cd m-2]", "`sunsky`", "ratio", "ratio along the meridian", "skyprobe, optical depth 0.018: zenith", "Blender", "ratio",
-              "ratio along the meridian"]
+    header = [
+        "Sun [deg]",
+        "skyprobe, turbidity 3: zenith [cd m-2]",
+        "`sunsky`",
+        "ratio",
+        "ratio along the meridian",
+        "skyprobe, optical depth 0.018: zenith",
+        "Blender",
+        "ratio",
+        "ratio along the meridian",
+    ]
     versions = f"Mitsuba {mi.__version__}" + (f", Blender {render['version']} (`{render['sky_type']}`)" if render else ", Blender absent")
     text = f"{versions}.\n\n" + markdown(header, rows) + "\n" + save(figure, "other_models.png") + "\n"
     try:

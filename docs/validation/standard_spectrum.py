@@ -3,7 +3,7 @@
 import numpy as np
 import pvlib
 import skyprobe as sp
-from common import around, directions, markdown, own_table, plt, rms, save
+from common import around, directions, markdown, own_table, rms
 from pvlib.spectrum import get_reference_spectra
 
 ZENITH_DEG = 48.19
@@ -43,8 +43,17 @@ def compute(**changes) -> tuple[np.ndarray, np.ndarray]:
 def transposed(tilted: np.ndarray, kept: np.ndarray) -> str:
     """The diffuse light of the tilted plane beside that of SPECTRL2 (Bird & Riordan 1986) in the same air, relative to the global irradiance."""
     result = pvlib.spectrum.spectrl2(
-        apparent_zenith=ZENITH_DEG, aoi=ZENITH_DEG - TILT_DEG, surface_tilt=TILT_DEG, ground_albedo=0.15, surface_pressure=101325.0,
-        relative_airmass=1.5, precipitable_water=1.416, ozone=0.3438, aerosol_turbidity_500nm=0.084, dayofyear=94, alpha=1.198,
+        apparent_zenith=ZENITH_DEG,
+        aoi=ZENITH_DEG - TILT_DEG,
+        surface_tilt=TILT_DEG,
+        ground_albedo=0.15,
+        surface_pressure=101325.0,
+        relative_airmass=1.5,
+        precipitable_water=1.416,
+        ozone=0.3438,
+        aerosol_turbidity_500nm=0.084,
+        dayofyear=94,
+        alpha=1.198,
         scattering_albedo_400nm=0.94,
     )
     sun, theirs = (np.interp(BANDS_NM, result["wavelength"], np.ravel(result[key])) for key in ("dni_extra", "poa_global"))
@@ -56,6 +65,8 @@ def transposed(tilted: np.ndarray, kept: np.ndarray) -> str:
 
 
 def report() -> str:
+    from figures import plt, save
+
     spectra = get_reference_spectra()
     outside, given_global, given_direct = (band_means(spectra[name]) for name in ("extraterrestrial", "global", "direct"))
     direct, tilted = compute()
@@ -66,14 +77,35 @@ def report() -> str:
     rows = []
     for i, band in enumerate(BANDS_NM):
         why = ABSORBED.get(int(band), "")
-        rows.append([f"{band:.0f}", f"{given_direct[i]:.3f}", f"{100 * error_direct[i]:+.1f} %", f"{given_global[i]:.3f}", f"{100 * error_global[i]:+.1f} %",
-                     f"{100 * (own[i] / outside[i] - 1):+.1f} %", why])
+        rows.append(
+            [
+                f"{band:.0f}",
+                f"{given_direct[i]:.3f}",
+                f"{100 * error_direct[i]:+.1f} %",
+                f"{given_global[i]:.3f}",
+                f"{100 * error_global[i]:+.1f} %",
+                f"{100 * (own[i] / outside[i] - 1):+.1f} %",
+                why,
+            ]
+        )
     text = "Relative to the standard's own spectrum outside the air:\n\n" + markdown(
         ["bands", "direct, rms", "direct, largest", "global, rms", "global, largest"],
-        [["kept", f"{100 * rms(error_direct[kept]):.2f} %", f"{100 * np.abs(error_direct[kept]).max():.2f} %",
-          f"{100 * rms(error_global[kept]):.2f} %", f"{100 * np.abs(error_global[kept]).max():.2f} %"],
-         ["all", f"{100 * rms(error_direct):.2f} %", f"{100 * np.abs(error_direct).max():.2f} %",
-          f"{100 * rms(error_global):.2f} %", f"{100 * np.abs(error_global).max():.2f} %"]],
+        [
+            [
+                "kept",
+                f"{100 * rms(error_direct[kept]):.2f} %",
+                f"{100 * np.abs(error_direct[kept]).max():.2f} %",
+                f"{100 * rms(error_global[kept]):.2f} %",
+                f"{100 * np.abs(error_global[kept]).max():.2f} %",
+            ],
+            [
+                "all",
+                f"{100 * rms(error_direct):.2f} %",
+                f"{100 * np.abs(error_direct).max():.2f} %",
+                f"{100 * rms(error_global):.2f} %",
+                f"{100 * np.abs(error_global).max():.2f} %",
+            ],
+        ],
     )
     own_error = direct * own / given_direct - 1, tilted * own / given_global - 1
     text += f"\nWith the library's spectrum of the Sun (ASTM E490) as it is: direct {100 * rms(own_error[0][kept]):.2f} % rms, largest "
@@ -99,7 +131,7 @@ def report() -> str:
     left.set(xlabel="wavelength [nm]", ylabel="irradiance [W m-2 nm-1]", ylim=(0, None))
     left.legend()
     for error, name in ((error_direct, "direct"), (error_global, "global")):
-        line, = right.plot(BANDS_NM[kept], 100 * error[kept], ".-", label=name)
+        (line,) = right.plot(BANDS_NM[kept], 100 * error[kept], ".-", label=name)
         right.plot(BANDS_NM[~kept], 100 * error[~kept], "x", color=line.get_color(), ms=4)
     right.axhspan(-3, 3, color="0.9", zorder=0)
     right.set(xlabel="wavelength [nm]", ylabel="skyprobe / G173 - 1 [%]", title="crosses: bands of water and oxygen")

@@ -2,7 +2,16 @@
 
 import numpy as np
 import skyprobe as sp
-from common import FLAT_RADIUS_KM, column, directions, markdown, plt, read_table, reference, rms, save
+from common import (
+    FLAT_RADIUS_KM,
+    column,
+    directions,
+    markdown,
+    read_table,
+    reference,
+    rms,
+)
+from figures import plt, save
 
 AIR = ["tau_rayleigh", "tau_aerosol", "tau_ozone", "ground_albedo"]
 
@@ -51,8 +60,17 @@ def by_zenith(name: str, table: dict[str, np.ndarray], error: np.ndarray, noise:
     for zenith in np.unique(table["sun_zenith_deg"]):
         part = error[table["sun_zenith_deg"] == zenith]
         own = rms(noise[table["sun_zenith_deg"] == zenith])
-        rows.append([name, f"{zenith:g}", len(part), f"{100 * part.mean():+.2f} %", f"{100 * rms(part):.2f} %",
-                     f"{100 * np.abs(part).max():.2f} %", f"{100 * own:.2f} %" if own else "-"])
+        rows.append(
+            [
+                name,
+                f"{zenith:g}",
+                len(part),
+                f"{100 * part.mean():+.2f} %",
+                f"{100 * rms(part):.2f} %",
+                f"{100 * np.abs(part).max():.2f} %",
+                f"{100 * own:.2f} %" if own else "-",
+            ]
+        )
     return rows
 
 
@@ -80,8 +98,7 @@ def natraj(tau: str) -> tuple[list[object], np.ndarray]:
                 polarised[rows] = polarised[rows] if polarisation is False else np.nan
     error = intensity / table["I"] - 1
     degree = "-" if np.isnan(polarised).any() else f"{polarised.max():.4f}"
-    return [tau, len(error), f"{100 * rms(error):.3f} %", f"{100 * np.abs(error).max():.3f} %", degree,
-            f"{100 * rms(scalar / table['I'] - 1):.2f} %"], error
+    return [tau, len(error), f"{100 * rms(error):.3f} %", f"{100 * np.abs(error).max():.3f} %", degree, f"{100 * rms(scalar / table['I'] - 1):.2f} %"], error
 
 
 def report() -> str:
@@ -93,10 +110,28 @@ def report() -> str:
     noise = round_["standard_error"] / truth
     rows = by_zenith("DISORT, flat", flat, flat_error, np.zeros_like(flat_error)) + by_zenith("Monte Carlo, sphere", round_, round_error, noise)
     day = round_["sun_zenith_deg"] <= 94
-    rows.append(["DISORT, flat", "all", len(flat_error), f"{100 * flat_error.mean():+.2f} %", f"**{100 * rms(flat_error):.2f} %**",
-                 f"{100 * np.abs(flat_error).max():.2f} %", "-"])
-    rows.append(["Monte Carlo, sphere", "to 94", day.sum(), f"{100 * round_error[day].mean():+.2f} %", f"**{100 * rms(round_error[day]):.2f} %**",
-                 f"{100 * np.abs(round_error[day]).max():.2f} %", f"{100 * rms(noise[day]):.2f} %"])
+    rows.append(
+        [
+            "DISORT, flat",
+            "all",
+            len(flat_error),
+            f"{100 * flat_error.mean():+.2f} %",
+            f"**{100 * rms(flat_error):.2f} %**",
+            f"{100 * np.abs(flat_error).max():.2f} %",
+            "-",
+        ]
+    )
+    rows.append(
+        [
+            "Monte Carlo, sphere",
+            "to 94",
+            day.sum(),
+            f"{100 * round_error[day].mean():+.2f} %",
+            f"**{100 * rms(round_error[day]):.2f} %**",
+            f"{100 * np.abs(round_error[day]).max():.2f} %",
+            f"{100 * rms(noise[day]):.2f} %",
+        ]
+    )
     text = markdown(["reference", "Sun zenith", "rows", "mean", "rms", "largest", "its own standard error"], rows)
     found = [natraj(tau) for tau in ("0.1", "0.5")]
     text += "\n" + markdown(

@@ -2,7 +2,8 @@
 
 import numpy as np
 import skyprobe as sp
-from common import markdown, own_table, plt, rms, save
+from common import markdown, rms
+from figures import plt, save
 
 # Illuminance of Sun and clear sky on a level surface [lx]: log10 E = sum of l_i x^i, x = altitude / 90 deg (Janiczek & DeYoung, US Naval Observatory Circular 171,
 # 1987; Seidelmann, Explanatory Supplement, 1992, section 9.3).
@@ -40,6 +41,17 @@ def magnitude(sky: sp.Sky, band: str) -> float:
     return float(-2.5 * np.log10(radiance * ARCSEC2 / zero))
 
 
+def mean_difference(air: sp.Atmosphere) -> list[float]:
+    """Zenith with night sky minus measurement, for each band [mag]."""
+    result = []
+    for band, (a0, a1, a2, _, night) in PARANAL.items():
+        over = np.arange(0.0, 8.1, 2.0)
+        lit = np.array([magnitude(sp.Sky.with_sun(altitude_deg=-5 - x, azimuth_deg=180.0, atmosphere=air), band) for x in over])
+        total = -2.5 * np.log10(10 ** (-0.4 * lit) + 10 ** (-0.4 * night))
+        result.append(float(np.mean(total - (a0 + a1 * over + a2 * over**2))))
+    return result
+
+
 def report() -> str:
     clear = sp.Atmosphere(preset="clear", quality="high", polarisation=True)
     hazy = sp.Atmosphere(preset="clear", turbidity=6.0, quality="standard", polarisation=True)
@@ -75,6 +87,16 @@ def report() -> str:
     for band in PARANAL:
         difference = np.array([total - measured for _, name, measured, total, _, _ in points if name == band])
         text += f"{band}: mean {difference.mean():+.2f} mag, rms {rms(difference):.2f} mag; scatter of the measurements {PARANAL[band][3]:.2f} mag.\n"
+    variants = [
+        ("as above", {}),
+        ("ozone 200 DU", {"ozone_du": 200.0}),
+        ("no ozone", {"ozone_du": 0.0}),
+        ("aerosol optical depth 0.02", {"aod550": 0.02}),
+        ("stratospheric aerosol of optical depth 0.005 added", {"stratospheric_aod550": 0.005}),
+        ("1013 hPa", {"surface_pressure_hpa": 1013.25}),
+    ]
+    rows = [[name, *(f"{value:+.2f}" for value in mean_difference(sp.Atmosphere(**paranal | change, quality="standard")))] for name, change in variants]
+    text += "\n" + markdown(["mean difference, Sun -5 to -13 deg [mag]", *PARANAL], rows)
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.4))
     altitude, lux, published = np.array(curve).T
     left.semilogy(altitude, lux, "C0.-", label="skyprobe, clear (no night sky)")
