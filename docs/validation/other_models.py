@@ -81,7 +81,7 @@ def report() -> str:
     thin = sp.Atmosphere(preset="clear", aod550=0.018, quality="high", polarisation=True)
     hazy = sp.Atmosphere(preset="clear", turbidity=3.0, quality="high", polarisation=True)
     render = blender()
-    figure, axes = plt.subplots(2, 3, figsize=(10, 5.2))
+    figure, axes = plt.subplots(2, 3, figsize=(10, 5.6), layout="constrained")
     rows = []
     for sun, panel in zip(SUNS_DEG, axes.flat, strict=True):
         ours = {}
@@ -120,7 +120,7 @@ def report() -> str:
             ]
         )
     axes[0, 0].set_ylabel("luminance [cd m-2]")
-    axes[0, 0].legend()
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     header = [
         "Sun [deg]",
         "skyprobe, turbidity 3: zenith [cd m-2]",
