@@ -203,3 +203,104 @@ fn add_dipole<const N: usize>(f: &DipoleSource, tensor: &[Lanes<N>; TENSOR], i: 
         qu[4][n] = f.u2_b * b[n];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atmosphere::{Component, OpticalProfile, Phase};
+    use crate::light::harmonics::Orders;
+    use crate::light::ray::{Ray, StepLimits};
+    use crate::light::source::Field;
+    use crate::light::stokes::add_tensor;
+    use crate::light::suns::SunOnRay;
+    use crate::quality::Quality;
+
+    const N: usize = 16;
+
+    fn molecules() -> OpticalProfile {
+        let altitudes: Vec<f64> = (0..=200).map(|i| 0.5 * f64::from(i)).collect();
+        OpticalProfile {
+            components: vec![Component {
+                name: "molecules".into(),
+                scattering_per_km: altitudes.iter().map(|z| 0.03 * (-z / 8.0).exp()).collect(),
+                absorption_per_km: vec![0.0; altitudes.len()],
+                phase: Some(Phase::Rayleigh { depolarisation: vec![0.03] }),
+            }],
+            altitudes_km: altitudes,
+            wavelengths_nm: vec![450.0],
+            ground_albedo: vec![0.0],
+            solar_irradiance: vec![1.0],
+            planet_radius_km: 6371.0,
+            sun_angular_radius_deg: 0.2664,
+        }
+    }
+
+    /// Moments up to l = 2, and the tensor, of the unpolarised light I = 1 + 0.3 mu + s (0.2 + 0.4 mu) cos p + 0.25 s^2 cos 2p + 0.5 mu^2.
+    fn unpolarised(shape: Shape) -> Vec<Lanes<N>> {
+        let mut node = vec![splat(0.0); shape.count()];
+        let orders = shape.orders;
+        for (t, weight) in crate::light::gauss::legendre(8) {
+            let mu = 2.0 * t - 1.0;
+            let s = (1.0 - mu * mu).sqrt();
+            let waves = [1.0 + 0.3 * mu + 0.5 * mu * mu, s * (0.2 + 0.4 * mu), 0.25 * s * s];
+            // Integrals over azimuth of I cos(m p).
+            let parts = [2.0 * PI * waves[0], PI * waves[1], PI * waves[2]].map(|v| v * 2.0 * weight);
+            let mut harmonic = vec![0.0; orders.count()];
+            harmonics::evaluate(orders, mu, &mut harmonic);
+            for (m, part) in parts.iter().enumerate() {
+                for l in m..=orders.order {
+                    let lm = orders.start(l) + m;
+                    node[lm] = node[lm].map(|v| v + harmonic[lm] * *part as f32);
+                }
+            }
+            if shape.polarised {
+                let dark = splat(0.0);
+                add_tensor(&mut node[orders.count()..], mu, 1.0, &parts.map(|v| [v as f32; N]), &[dark; 3], &[dark; 2]);
+            }
+        }
+        node
+    }
+
+    /// I, at several Suns and azimuths, that a ray receives from a field of that light.
+    fn received(polarised: bool) -> Vec<f32> {
+        let profile = molecules();
+        let numbers = Quality::Draft.numbers();
+        let [grid, _] = Grid::new(&numbers, &profile);
+        let air = Air::<N>::new(&profile, 0, 2, polarised);
+        let shape = Shape { orders: Orders::new(2, 2), polarised };
+        let mut field = Field::dark(&grid, shape);
+        let node = unpolarised(shape);
+        field.values = node.iter().copied().cycle().take(field.values.len()).collect();
+        let source = Relative::new(&field);
+        let limits = StepLimits { length_km: 25.0, optical_depth: 1.0 };
+        let mut out = Vec::new();
+        for mu in [0.9, 0.2, -0.6] {
+            let ray = Ray::trace(&air, &grid.shells, 20.0, mu, limits);
+            let on_rays: Vec<SunOnRay> = [(0.3, 0.1), (1.2, 2.0), (1.5, 3.0)]
+                .into_iter()
+                .map(|(zenith, azimuth): (f64, f64)| {
+                    SunOnRay::new(6391.0, mu, (azimuth.cos(), azimuth.sin()), (zenith.sin(), zenith.cos()))
+                })
+                .collect();
+            let mut suns = Suns::new(&on_rays);
+            let mut contracted = Contracted::new(&grid, shape);
+            let stokes = if polarised { 3 } else { 1 };
+            let mut sums = vec![splat(0.0); on_rays.len() * stokes];
+            for point in &ray.points {
+                contracted.fill(&grid, &source, &air, point, 0..grid.zeniths.len());
+                suns.place(&grid, 6391.0, point.distance, point.radius);
+                contracted.add(&grid, &suns, &mut sums);
+            }
+            out.extend(sums.chunks_exact(stokes).map(|sum| sum[0][0]));
+        }
+        out
+    }
+
+    /// The vector code in light without polarisation, Q = U = 0, scatters what the scalar code does.
+    #[test]
+    fn unpolarised_light_is_scattered_as_a_scalar() {
+        for (vector, scalar) in received(true).into_iter().zip(received(false)) {
+            assert!(scalar > 0.0 && (vector / scalar - 1.0).abs() < 1e-5, "{vector} {scalar}");
+        }
+    }
+}

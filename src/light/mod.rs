@@ -7,10 +7,10 @@
 //! A change of time, place or height needs gathers only.
 //!
 //! Bottom up: `lanes` (blocks of wavelengths), `axis`, `zenith_axis`, `gauss`, `harmonics` (mathematics), `air` (one block of a profile), `ray`
-//! (steps through the shells), `sunlight`, `single`, `grid`, `source`, `anderson`, `solve`, `field`. [`PathTracer`] judges them all: slow, simple, unbiased.
+//! (steps through the shells), `stokes`, `suns`, `sunlight`, `single`, `grid`, `source`, `contracted`, `anderson`, `solve`, `angular`, `field`.
+//! [`PathTracer`] judges them all: slow, simple, unbiased. [`Thesis`] is the estimator of the original thesis.
 //!
-//! Light is a scalar here. Polarised light has its place: a field's moments at a node become the moments of I and the four numbers of the
-//! coherency tensor, and a ray's sums those of I, Q and U, with the same grid, rays and interpolation.
+//! Light is polarised, or a scalar on request. Molecules scatter by the exact matrix; particles and the ground take I alone and send out unpolarised light.
 
 // Loops over lanes index several blocks at once: the plain form is what the compiler vectorises and what a reader follows.
 #![allow(clippy::needless_range_loop)]
