@@ -63,7 +63,7 @@ impl Quality {
             Self::Draft => Numbers {
                 wavelengths: 32,
                 altitudes: 16,
-                solar_zenith_angles: 40,
+                solar_zenith_angles: 38,
                 iteration_altitudes: 12,
                 iteration_solar_zenith_angles: 28,
                 shells: 10,
@@ -99,12 +99,12 @@ impl Quality {
             Self::High => Numbers {
                 wavelengths: 32,
                 altitudes: 28,
-                solar_zenith_angles: 72,
+                solar_zenith_angles: 66,
                 iteration_altitudes: 18,
                 iteration_solar_zenith_angles: 44,
                 shells: 19,
                 iteration_zenith_nodes: [7, 6, 4],
-                zenith_nodes: [10, 8, 5],
+                zenith_nodes: [10, 7, 5],
                 azimuth_nodes: [4, 9],
                 order: 8,
                 azimuthal_order: 8,

@@ -8,6 +8,7 @@ use super::axis::Axis;
 use super::lanes::{Lanes, add_scaled, lerp, splat};
 use super::stokes::dipole_share;
 use crate::atmosphere::{OpticalProfile, Phase};
+use rayon::prelude::*;
 
 /// Coefficients of the air for a block of at most `N` wavelengths; unused lanes repeat the last wavelength.
 pub struct Air<const N: usize> {
@@ -70,7 +71,8 @@ impl<const N: usize> Air<N> {
                 add_scaled(total, 1.0, &row(&component.absorption_per_km, z));
             }
             let (Some(phase), Some(order)) = (&component.phase, max_order) else { continue };
-            let by_lane: Vec<Vec<f64>> = (0..N).map(|lane| phase.legendre_moments(order + 2, index(lane))).collect();
+            let by_lane: Vec<Vec<f64>> =
+                (0..N).into_par_iter().map(|lane| phase.legendre_moments(order + 2, index(lane))).collect();
             let forward: Lanes<N> = std::array::from_fn(|lane| forward_share(&by_lane[lane], order) as f32);
             let mut above = vec![splat(0.0); levels];
             for z in (0..levels - 1).rev() {

@@ -18,6 +18,7 @@
 use super::air::forward_share;
 use super::axis::Axis;
 use crate::atmosphere::Phase;
+use rayon::prelude::*;
 
 /// Entries of the tables of functions, equidistant in sqrt(sin(angle / 2)).
 const ENTRIES: usize = 1025;
@@ -158,7 +159,7 @@ fn cosine_at(entry: usize) -> f64 {
 impl Table {
     fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
         let cosines: Vec<f64> = (0..ENTRIES).map(cosine_at).collect();
-        let moments: Vec<Vec<f64>> = (0..wavelengths).map(|w| moments(phase, w)).collect();
+        let moments: Vec<Vec<f64>> = (0..wavelengths).into_par_iter().map(|w| moments(phase, w)).collect();
         let most = moments.iter().map(Vec::len).max().unwrap_or(0).max(order + 1);
         let legendre = legendre_table(most, &cosines);
         let disc = disc_moments(most, sun_radius);
@@ -167,39 +168,49 @@ impl Table {
                 *sum += (2 * l + 1) as f64 * value * p;
             }
         };
+        // By wavelength: the phase function, its forward share, the rest, and the peak for each path.
+        let made: Vec<(Vec<f64>, f64, Vec<f64>, Vec<Vec<f64>>)> = moments
+            .par_iter()
+            .enumerate()
+            .map(|(w, moments)| {
+                let whole: Vec<f64> = cosines.iter().map(|&cosine| phase.value(w, cosine)).collect();
+                let share = forward_share(moments, order);
+                let mut rest = vec![0.0; ENTRIES];
+                for (l, chi) in moments.iter().enumerate().take(order + 1) {
+                    add_series(&mut rest, l, (chi - share) / (1.0 - share));
+                }
+                let peak_after = |path: f64| {
+                    // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
+                    let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
+                    for l in 0..most {
+                        let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
+                        let repeated = if path > 0.0 { (path * chi).exp_m1() / path } else { chi };
+                        let added = repeated * disc[l] - chi;
+                        if added != 0.0 {
+                            add_series(&mut peak, l, added);
+                        }
+                    }
+                    let factor = (share * path).exp();
+                    peak.iter_mut().for_each(|value| *value /= factor);
+                    peak
+                };
+                let peaks = PATHS.map(peak_after).into();
+                (whole, share, rest, peaks)
+            })
+            .collect();
         // All functions are relative to the mean phase function, so that backward directions count as much as the aureole.
         let mut scale = vec![0.0; ENTRIES];
-        let (mut peaks, mut rests, mut growth, mut growths) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        for (w, moments) in moments.iter().enumerate() {
-            let whole: Vec<f64> = cosines.iter().map(|&cosine| phase.value(w, cosine)).collect();
+        let (mut peaks, mut rests, mut growth) = (Vec::new(), Vec::new(), Vec::new());
+        for (whole, share, rest, peak) in made {
             scale.iter_mut().zip(&whole).for_each(|(sum, value)| *sum += value / wavelengths as f64);
-            let share = forward_share(moments, order);
-            let mut rest = vec![0.0; ENTRIES];
-            for (l, chi) in moments.iter().enumerate().take(order + 1) {
-                add_series(&mut rest, l, (chi - share) / (1.0 - share));
-            }
-            for path in PATHS {
-                // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
-                let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
-                for l in 0..most {
-                    let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
-                    let repeated = if path > 0.0 { (path * chi).exp_m1() / path } else { chi };
-                    let added = repeated * disc[l] - chi;
-                    if added != 0.0 {
-                        add_series(&mut peak, l, added);
-                    }
-                }
-                let factor = (share * path).exp();
-                peak.iter_mut().for_each(|value| *value /= factor);
-                peaks.push(peak);
-                growths.push(factor);
-            }
             growth.push(share);
             rests.push(rest);
+            peaks.extend(peak);
         }
         for function in peaks.iter_mut().chain(&mut rests) {
             function.iter_mut().zip(&scale).for_each(|(value, scale)| *value /= scale.max(1e-12));
         }
+        let growths: Vec<f64> = growth.iter().flat_map(|share| PATHS.map(|path| (share * path).exp())).collect();
         let (peak_basis, peak_weights) = pick(&peaks, &growths);
         let (rest_basis, rest_weights) = pick(&rests, &vec![1.0; wavelengths]);
         let (peak, count) = (peak_basis.len(), peak_basis.len() + rest_basis.len());
@@ -213,9 +224,13 @@ impl Table {
 
 /// Legendre moments that matter.
 fn moments(phase: &Phase, wavelength: usize) -> Vec<f64> {
-    let mut moments = phase.legendre_moments(64, wavelength);
-    if moments[63].abs() > SMALLEST_MOMENT {
-        moments = phase.legendre_moments(MOST_MOMENTS, wavelength);
+    let mut moments = Vec::new();
+    // Their cost grows with the square of how many they are.
+    for count in [64, 256, 600, MOST_MOMENTS] {
+        moments = phase.legendre_moments(count, wavelength);
+        if moments[count - 8..].iter().all(|moment| moment.abs() < SMALLEST_MOMENT) {
+            break;
+        }
     }
     let last = moments.iter().rposition(|m| m.abs() > SMALLEST_MOMENT).unwrap_or(0);
     moments.truncate(last + 1);
