@@ -302,12 +302,17 @@ fn shade(circle: &Circle, terms: &Terms, places: &Places, factors: &mut [[f32; C
         let interval = (positions[start] as usize).min(intervals - 1);
         let same = |p: &f32| (*p as usize).min(intervals - 1) == interval;
         let end = start + positions[start..count].iter().take_while(|p| same(p)).count();
+        let mut x = [0.0_f32; CHUNK];
+        for (x, position) in x.iter_mut().zip(&positions[start..end]) {
+            *x = position - interval as f32;
+        }
         for (field, factor) in factors.iter().enumerate().take(terms.count) {
             let cubics = circle.cubic(interval, field);
+            // Slices of equal length, so that the loop becomes vector instructions.
+            let (x, factor) = (&x[..end - start], &factor[start..end]);
             for (sum, c) in xyz.iter_mut().zip(&cubics) {
-                for i in start..end {
-                    let x = positions[i] - interval as f32;
-                    sum[i] += factor[i] * (c[0] + x * (c[1] + x * (c[2] + x * c[3])));
+                for ((sum, x), factor) in sum[start..end].iter_mut().zip(x).zip(factor) {
+                    *sum += factor * (c[0] + x * (c[1] + x * (c[2] + x * c[3])));
                 }
             }
         }
