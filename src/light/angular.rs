@@ -156,6 +156,18 @@ fn cosine_at(entry: usize) -> f64 {
     1.0 - 2.0 * (entry as f64 / (ENTRIES - 1) as f64).powi(4)
 }
 
+/// The functions of one wavelength.
+struct Made {
+    /// The phase function.
+    whole: Vec<f64>,
+    /// Share of its forward peak.
+    share: f64,
+    /// The phase function without that peak.
+    rest: Vec<f64>,
+    /// The peak for each path.
+    peaks: Vec<Vec<f64>>,
+}
+
 impl Table {
     fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
         let cosines: Vec<f64> = (0..ENTRIES).map(cosine_at).collect();
@@ -168,8 +180,7 @@ impl Table {
                 *sum += (2 * l + 1) as f64 * value * p;
             }
         };
-        // By wavelength: the phase function, its forward share, the rest, and the peak for each path.
-        let made: Vec<(Vec<f64>, f64, Vec<f64>, Vec<Vec<f64>>)> = moments
+        let made: Vec<Made> = moments
             .par_iter()
             .enumerate()
             .map(|(w, moments)| {
@@ -195,17 +206,17 @@ impl Table {
                     peak
                 };
                 let peaks = PATHS.map(peak_after).into();
-                (whole, share, rest, peaks)
+                Made { whole, share, rest, peaks }
             })
             .collect();
         // All functions are relative to the mean phase function, so that backward directions count as much as the aureole.
         let mut scale = vec![0.0; ENTRIES];
         let (mut peaks, mut rests, mut growth) = (Vec::new(), Vec::new(), Vec::new());
-        for (whole, share, rest, peak) in made {
+        for Made { whole, share, rest, peaks: after } in made {
             scale.iter_mut().zip(&whole).for_each(|(sum, value)| *sum += value / wavelengths as f64);
             growth.push(share);
             rests.push(rest);
-            peaks.extend(peak);
+            peaks.extend(after);
         }
         for function in peaks.iter_mut().chain(&mut rests) {
             function.iter_mut().zip(&scale).for_each(|(value, scale)| *value /= scale.max(1e-12));
