@@ -15,6 +15,10 @@
 //! As a function of the scattering angle this is needed for each wavelength and path. All these functions are nearly combinations of a few of them, which a pivoted
 //! Gram-Schmidt process picks: sums over wavelengths can then be done before the angle is known, and a pixel costs a few products.
 
+mod rows;
+
+pub use rows::{BLOCK, FunctionRows, Located};
+
 use super::air::forward_share;
 use super::axis::Axis;
 use crate::atmosphere::Phase;

@@ -36,7 +36,7 @@ mod suns;
 pub mod thesis;
 mod zenith_axis;
 
-pub use angular::{AngularFunctions, Once};
+pub use angular::{AngularFunctions, BLOCK, FunctionRows, Located, Once};
 pub use axis::Axis;
 pub use field::{Gathered, LightField, Observer};
 pub use path_tracer::{Estimate, Guiding, PathTracer};

@@ -5,9 +5,11 @@
 //! halving, and what was gathered to check is kept, the error that remains is mostly far below the tolerance.
 //! The thesis chose its pixels so: it rendered more where neighbours differ by more than a tolerance (figures 11 to 13).
 
-use super::{CHUNK, Half, Places, Side, angular_factors, filter_factors};
+use super::Side;
+use super::half::Half;
+use super::shade::{CHUNK, Looks, Places};
 use crate::error::Result;
-use crate::light::Axis;
+use crate::light::{Axis, BLOCK};
 use crate::progress::Progress;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -161,7 +163,7 @@ impl<'a> Circles<'a> {
                 return Ok(());
             }
             let found = (0..=last).into_par_iter().map(gather).collect::<Result<Vec<_>>>()?;
-            let fields = self.side.terms.count;
+            let fields = self.side.terms.lanes.count();
             for (row, new) in self.rows.iter_mut().zip(found) {
                 let old = std::mem::take(row);
                 let mut new = new.chunks_exact(fields);
@@ -177,7 +179,7 @@ impl<'a> Circles<'a> {
 
     /// What circle `c` says about the middles between its azimuths.
     fn between(&self, c: usize) -> Row {
-        let fields = self.side.terms.count;
+        let fields = self.side.terms.lanes.count();
         let last = self.azimuths as isize;
         let mut row = vec![[0.0; 3]; self.azimuths * fields];
         for (a, middle) in row.chunks_exact_mut(fields).enumerate() {
@@ -187,7 +189,7 @@ impl<'a> Circles<'a> {
                 let first = inside as usize * fields;
                 let known = &self.rows[c][first..first + fields];
                 add(middle, weight, known);
-                if inside != node && self.side.terms.filter.is_some() {
+                if inside != node && self.side.terms.lanes.filter().is_some() {
                     // The last field, U, is odd about the Sun's meridian.
                     add(&mut middle[fields - 1..], -2.0 * weight, &known[fields - 1..]);
                 }
@@ -197,7 +199,7 @@ impl<'a> Circles<'a> {
     }
 
     fn into_half(self) -> Half {
-        self.side.half(self.positions, self.azimuths + 1, &self.rows)
+        Half::new(self.positions, &self.rows, &self.side.terms.lanes)
     }
 }
 
@@ -217,20 +219,21 @@ impl Side<'_> {
     fn radiance(&self, position: f64, azimuths: &[f64], row: &[[f32; 3]]) -> Row {
         let (sun_altitude, sun_azimuth) = self.what.sun;
         let altitude = self.altitude(position);
-        let mut factors = vec![[0.0_f32; CHUNK]; self.terms.count];
         let mut out = Vec::with_capacity(2 * azimuths.len());
-        let sides: &[f64] = if self.terms.filter.is_some() { &[-1.0, 1.0] } else { &[-1.0] };
+        let sides: &[f64] = if self.terms.lanes.filter().is_some() { &[-1.0, 1.0] } else { &[-1.0] };
         for side in sides {
-            for (azimuths, row) in azimuths.chunks(CHUNK).zip(row.chunks(CHUNK * self.terms.count)) {
+            for (azimuths, row) in azimuths.chunks(CHUNK).zip(row.chunks(CHUNK * self.terms.lanes.count())) {
                 let azimuths: Vec<f64> = azimuths.iter().map(|azimuth| sun_azimuth + side * azimuth).collect();
                 let places = Places { altitude, sun_altitude, sun_azimuth, azimuths: &azimuths };
-                angular_factors(self.terms, &places, &mut factors);
-                if let Some(filter) = &self.terms.filter {
-                    filter_factors(self.terms, filter, &places, &mut factors);
-                }
-                for (i, fields) in row.chunks_exact(self.terms.count).enumerate() {
-                    let sum = |k: usize| factors.iter().zip(fields).map(|(factor, field)| factor[i] * field[k]).sum::<f32>();
-                    out.push([sum(0), sum(1), sum(2)]);
+                let looks = Looks::new(&self.terms.lanes, &places);
+                for (i, fields) in row.chunks_exact(self.terms.lanes.count()).enumerate() {
+                    let mut sum = [0.0_f32; 3];
+                    for (block, fields) in fields.chunks(BLOCK).enumerate() {
+                        for (factor, field) in looks.factors(&self.terms.lanes, i, block).into_iter().zip(fields) {
+                            (0..3).for_each(|k| sum[k] += factor * field[k]);
+                        }
+                    }
+                    out.push(sum);
                 }
             }
         }
