@@ -61,6 +61,9 @@ pub struct FileOptions {
     pub half: Half,
     /// Exposure of a PNG relative to the automatic one [stops], -20 to 20.
     pub exposure_stops: f64,
+    /// Whether an EXR file holds each layer of the light ([`Layer`](crate::sky::Layer)) beside their sum, in channels such as `stars.R`. Colours outside the
+    /// space are then dealt with layer by layer.
+    pub layers: bool,
 }
 
 /// A kind of file, by the suffix of its name.

@@ -10,7 +10,7 @@ use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Turns rows into what the file holds of them, on any thread.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Encoder {
     Exr(Packing),
     Hdr {
@@ -21,11 +21,11 @@ pub enum Encoder {
 }
 
 impl Encoder {
-    /// The pieces of the file that hold `pixels`, whole rows from row `first` on: a multiple of 16, and so is their number unless they are the last.
-    pub fn encode(&self, first: usize, pixels: &[f32]) -> Vec<Vec<u8>> {
+    /// The pieces of the file that hold `pictures`, the picture and its layers: whole rows from row `first` on, a multiple of 16, and so is their number unless they are the last.
+    pub fn encode(&self, first: usize, pictures: &[&[f32]]) -> Vec<Vec<u8>> {
         match self {
-            Self::Exr(packing) => packing.pack(first, pixels),
-            Self::Hdr { width } => hdr::encode_rows(*width, pixels),
+            Self::Exr(packing) => packing.pack(first, pictures),
+            Self::Hdr { width } => hdr::encode_rows(*width, pictures[0]),
             Self::Png => Vec::new(),
         }
     }
@@ -48,15 +48,15 @@ pub struct RowFile {
 }
 
 impl RowFile {
-    /// Begins the file `path` in the format that its suffix names. `largest` tells the largest value of the picture; only half floats ask for it.
+    /// Begins the file `path` in the format that its suffix names, with `layers` if it is EXR. `largest` tells the largest value of the picture; only half floats ask for it.
     ///
     /// # Errors
     /// [`Error::Input`] for an unknown suffix, options out of range, or pixels that half floats cannot hold; [`Error::File`].
     pub fn create(
         path: &Path,
         settings: &ProbeSettings,
-        options: &FileOptions,
-        metadata: &Metadata,
+        layers: &[&'static str],
+        (options, metadata): (&FileOptions, &Metadata),
         largest: impl FnOnce() -> Result<exr::Largest>,
     ) -> Result<Self> {
         let format = Format::of(path)?;
@@ -66,9 +66,10 @@ impl RowFile {
             Format::Exr => {
                 let half = options.half != Half::Off;
                 let scale = if half { exr::pixel_scale(options.half, largest()?, width)? } else { 1.0 };
-                let packing = Packing::new((width, height), half, scale);
+                let packing = Packing::new((width, height), half, scale, layers.to_vec());
                 let table = vec![0; 8 * packing.blocks()];
-                (Encoder::Exr(packing), [exr::header(settings, metadata, &packing), table].concat())
+                let head = [exr::header(settings, metadata, &packing), table].concat();
+                (Encoder::Exr(packing), head)
             }
             Format::Hdr => (Encoder::Hdr { width }, hdr::header(settings, metadata).into_bytes()),
             Format::Png => (Encoder::Png, Vec::new()),
@@ -91,7 +92,7 @@ impl RowFile {
 
     /// What turns rows into pieces of this file.
     pub fn encoder(&self) -> Encoder {
-        self.encoder
+        self.encoder.clone()
     }
 
     /// Appends the rows `pixels`, which the encoder made `pieces` of.
@@ -116,7 +117,7 @@ impl RowFile {
     /// [`Error::File`].
     pub fn finish(mut self) -> Result<()> {
         let failed = |error| Error::file(&self.path, error);
-        match self.encoder {
+        match &self.encoder {
             Encoder::Exr(packing) => {
                 let table: Vec<u8> = self.offsets.iter().flat_map(|offset| offset.to_le_bytes()).collect();
                 let first = self.offsets.first().copied().unwrap_or(self.position);

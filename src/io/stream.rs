@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::probe::{Painter, Probe, ProbeSettings};
 use crate::progress::Progress;
 use crate::sky::SkyLight;
+use rayon::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -14,10 +15,10 @@ use std::sync::{Mutex, PoisonError};
 /// Rows are handed over in multiples of this: the rows of a block of OpenEXR.
 const BLOCK_ROWS: usize = 16;
 
-/// Pixels of a band: enough for every thread, and little memory.
-fn band_rows(width: usize) -> usize {
+/// Rows of a band: enough for every thread, and little memory, of so many pictures.
+fn band_rows(width: usize, pictures: usize) -> usize {
     let for_threads = 2 * rayon::current_num_threads();
-    let row_bytes = 12 * width;
+    let row_bytes = 12 * width * pictures;
     let (least, most) = ((4 << 20) / (row_bytes * BLOCK_ROWS), (96 << 20) / (row_bytes * BLOCK_ROWS));
     BLOCK_ROWS * for_threads.max(least).min(most).max(1)
 }
@@ -47,34 +48,57 @@ pub fn render_to_files<P: AsRef<Path>>(
         }
         Ok(measured.unwrap_or_default())
     };
-    let files = paths.iter().map(|path| RowFile::create(path.as_ref(), settings, options, metadata, largest));
+    let layers = if options.layers { sky.layers() } else { Vec::new() };
+    let names: Vec<&'static str> = layers.iter().map(|(name, _)| *name).collect();
+    let files = paths.iter().map(|path| RowFile::create(path.as_ref(), settings, &names, (options, metadata), largest));
     let files = files.collect::<Result<Vec<_>>>()?;
     let twice = measured.lock().unwrap_or_else(PoisonError::into_inner).is_some();
     let second_half = |stage: &str, fraction: f64| progress.report(stage, 0.5 + 0.5 * fraction).is_ok();
     let rest = Progress::new(&second_half);
-    let painter = Painter::new(sky, settings, if twice { &rest } else { progress })?;
-    write_bands(&painter, files)
+    let progress = if twice { &rest } else { progress };
+    if layers.is_empty() {
+        return write_bands(&[Painter::new(sky, settings, progress)?], files);
+    }
+    let count = layers.len() as f64;
+    let shares: Vec<_> = (0..layers.len())
+        .map(|k| move |stage: &str, fraction: f64| progress.report(stage, (k as f64 + fraction) / count).is_ok())
+        .collect();
+    let shares: Vec<Progress> = shares.iter().map(|share| Progress::new(share)).collect();
+    let painters = layers.iter().zip(&shares).map(|((_, light), share)| Painter::new(&**light, settings, share));
+    write_bands(&painters.collect::<Result<Vec<_>>>()?, files)
 }
 
-fn write_bands(painter: &Painter, mut files: Vec<RowFile>) -> Result<()> {
-    let (width, height) = painter.size();
+/// Writes the picture of one painter, or the sum of several and, in files that have layers, each.
+fn write_bands(painters: &[Painter], mut files: Vec<RowFile>) -> Result<()> {
+    let (width, height) = painters[0].size();
+    let pictures = if painters.len() == 1 { 1 } else { painters.len() + 1 };
     let encoders: Vec<_> = files.iter().map(RowFile::encoder).collect();
-    let spare = Mutex::new(Vec::<Vec<f32>>::new());
+    let spare = Mutex::new(Vec::<Vec<Vec<f32>>>::new());
     let make = |rows: Range<usize>| {
-        let mut pixels = spare.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
-        pixels.resize(3 * width * rows.len(), 0.0);
-        painter.paint(rows.start, &mut pixels)?;
-        let pieces: Vec<_> = encoders.iter().map(|encoder| encoder.encode(rows.start, &pixels)).collect();
-        Ok((pixels, pieces))
-    };
-    let write = |(pixels, pieces): (Vec<f32>, Vec<Vec<Vec<u8>>>)| {
-        for (file, pieces) in files.iter_mut().zip(&pieces) {
-            file.append(&pixels, pieces)?;
+        let mut bands = spare.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_else(|| vec![Vec::new(); pictures]);
+        bands.iter_mut().for_each(|pixels| pixels.resize(3 * width * rows.len(), 0.0));
+        if let [painter] = painters {
+            painter.paint(rows.start, &mut bands[0])?;
+        } else {
+            let (sum, layers) = bands.split_at_mut(1);
+            sum[0].fill(0.0);
+            for (painter, layer) in painters.iter().zip(layers) {
+                painter.paint(rows.start, layer)?;
+                sum[0].par_iter_mut().zip(&*layer).for_each(|(sum, value)| *sum += value);
+            }
         }
-        spare.lock().unwrap_or_else(PoisonError::into_inner).push(pixels);
+        let pictures: Vec<&[f32]> = bands.iter().map(Vec::as_slice).collect();
+        let pieces: Vec<_> = encoders.iter().map(|encoder| encoder.encode(rows.start, &pictures)).collect();
+        Ok((bands, pieces))
+    };
+    let write = |(bands, pieces): (Vec<Vec<f32>>, Vec<Vec<Vec<u8>>>)| {
+        for (file, pieces) in files.iter_mut().zip(&pieces) {
+            file.append(&bands[0], pieces)?;
+        }
+        spare.lock().unwrap_or_else(PoisonError::into_inner).push(bands);
         Ok(())
     };
-    in_order(bands(width, height), make, write)?;
+    in_order(bands(width, height, pictures), make, write)?;
     files.into_iter().try_for_each(RowFile::finish)
 }
 
@@ -82,11 +106,11 @@ fn write_bands(painter: &Painter, mut files: Vec<RowFile>) -> Result<()> {
 pub(super) fn write_probe(path: &Path, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
     let stride = 3 * probe.width;
     let largest = || Ok(Largest::of(0, &probe.pixels));
-    let mut file = RowFile::create(path, &probe.settings, options, metadata, largest)?;
+    let mut file = RowFile::create(path, &probe.settings, &[], (options, metadata), largest)?;
     let encoder = file.encoder();
     let values = |rows: &Range<usize>| &probe.pixels[stride * rows.start..stride * rows.end];
-    let make = |rows: Range<usize>| Ok((encoder.encode(rows.start, values(&rows)), rows));
-    in_order(bands(probe.width, probe.height), make, |(pieces, rows)| file.append(values(&rows), &pieces))?;
+    let make = |rows: Range<usize>| Ok((encoder.encode(rows.start, &[values(&rows)]), rows));
+    in_order(bands(probe.width, probe.height, 1), make, |(pieces, rows)| file.append(values(&rows), &pieces))?;
     file.finish()
 }
 
@@ -96,7 +120,7 @@ fn largest_value(sky: &dyn SkyLight, settings: &ProbeSettings, progress: &Progre
     let (width, height) = painter.size();
     let mut pixels = Vec::new();
     let mut largest = Largest::default();
-    for rows in bands(width, height) {
+    for rows in bands(width, height, 1) {
         pixels.resize(3 * width * rows.len(), 0.0);
         painter.paint(rows.start, &mut pixels)?;
         largest = largest.or(Largest::of(3 * width * rows.start, &pixels));
@@ -104,8 +128,8 @@ fn largest_value(sky: &dyn SkyLight, settings: &ProbeSettings, progress: &Progre
     Ok(largest)
 }
 
-fn bands(width: usize, height: usize) -> impl Iterator<Item = Range<usize>> {
-    let rows = band_rows(width);
+fn bands(width: usize, height: usize, pictures: usize) -> impl Iterator<Item = Range<usize>> {
+    let rows = band_rows(width, pictures);
     (0..height).step_by(rows).map(move |first| first..(first + rows).min(height))
 }
 

@@ -1,12 +1,11 @@
-//! The light of a limb-darkened, possibly flattened disc, cut by the horizon, as a quadrature over circles of equal zenith angle.
+//! The light of a possibly flattened disc, cut by the horizon, as a quadrature over circles of equal zenith angle.
 //!
 //! With a direction w, the disc's centre s, its horizontal tangent h and its upward tangent v, and the angular radii a and b along them, the
 //! disc is
 //! ```text
 //! r^2 = (w.h / sin a)^2 + (w.v / sin b)^2 <= 1,   w.s > 0,
 //! ```
-//! which is exactly a spherical cap for a = b. Its brightness, with m = sqrt(1 - r^2), is
-//! I(r) = 1 - u (1 - m) - v (1 - m)^2 relative to the centre (quadratic law, Kopal 1950). On the circle of zenith angle theta, at azimuth phi from the
+//! which is exactly a spherical cap for a = b. Its brightness is that of its surface at (w.h / sin a, w.v / sin b). On the circle of zenith angle theta, at azimuth phi from the
 //! centre (zenith angle theta_0), with q = sin^2(phi / 2):
 //! ```text
 //! (w.h)^2 = 4 sin^2(theta) q (1 - q),   w.v = sin(theta_0 - theta) + 2 sin(theta) cos(theta_0) q,
@@ -67,12 +66,11 @@ impl Shape {
         Some(Chord { sine, above, slope, half: 2.0 * q.sqrt().asin() })
     }
 
-    /// 1 - r^2 at `azimuth` from the centre, on a chord.
-    fn depth(&self, chord: &Chord, azimuth: f64) -> f64 {
+    /// Place on the disc, to the right and upwards in units of the radii, at `azimuth` from the centre on a chord.
+    fn place(&self, chord: &Chord, azimuth: f64) -> (f64, f64) {
         let q = (0.5 * azimuth).sin().powi(2);
-        let across = 4.0 * chord.sine * chord.sine * q * (1.0 - q);
-        let along = chord.above + chord.slope * q;
-        (1.0 - across / self.across - along * along / self.along).max(0.0)
+        let (across, along) = (chord.sine * azimuth.sin(), chord.above + chord.slope * q);
+        (across / self.across.sqrt(), along / self.along.sqrt())
     }
 }
 
@@ -125,9 +123,9 @@ pub(crate) fn scan(
                 let along = |azimuth_: f64| ((azimuth_ - azimuth) / chord.half).clamp(-1.0, 1.0).asin();
                 for (on, column_weight) in pieces(&rule, along(columns[0]), along(columns[1])) {
                     let offset = chord.half * on.sin();
-                    let shade = 1.0 - shape.depth(&chord, offset).sqrt();
+                    let (right, up) = shape.place(&chord, offset);
                     let weight = row_weight * column_weight * chord.half * on.cos();
-                    let weight = disc.limb_darkening.map(|[u, v]| weight * (1.0 - shade * (u + v * shade)));
+                    let weight = disc.surface.brightness(right, up).map(|brightness| weight * brightness);
                     visit(Sample { theta, azimuth: azimuth + offset, weight });
                 }
             }
@@ -146,15 +144,17 @@ fn pieces(rule: &GaussLegendre, from: f64, to: f64) -> impl Iterator<Item = (f64
 mod tests {
     use super::super::latlong::direction;
     use super::*;
+    use crate::sky::Surface;
     use glam::DVec3;
 
     fn disc(theta: f64, azimuth: f64, horizontal: f64, vertical: f64, limb: [f64; 2]) -> Disc {
         Disc {
+            is_sun: true,
             direction: direction(theta, azimuth),
             horizontal_radius: horizontal,
             vertical_radius: vertical,
             irradiance: [1.0; 3],
-            limb_darkening: [limb; 3],
+            surface: Surface::LimbDarkened([limb; 3]),
         }
     }
 

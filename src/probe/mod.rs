@@ -13,6 +13,7 @@ mod image;
 mod latlong;
 mod moments;
 mod painter;
+mod points;
 mod quadrature;
 mod render;
 mod settings;

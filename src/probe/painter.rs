@@ -7,6 +7,7 @@ use super::footprint::{Node, Sampling, accumulate, column_samples, fold, nodes};
 use super::grid::Grid;
 use super::latlong::LatLong;
 use super::moments::restore_upward;
+use super::points;
 use super::quadrature::GaussLegendre;
 use super::settings::{Extent, GroundView, ProbeSettings};
 use crate::error::{Error, Result};
@@ -27,8 +28,8 @@ pub struct Painter<'a> {
     azimuths: Vec<f64>,
     kernel: Vec<(isize, f32)>,
     conversion: Conversion,
-    /// Radiance that the discs add, by row: (column, XYZ).
-    discs: BTreeMap<usize, Vec<(usize, [f32; 3])>>,
+    /// Radiance that discs and points add, by row: (column, XYZ).
+    drawn: BTreeMap<usize, Vec<(usize, [f32; 3])>>,
     /// The smooth part of a small image, whose rows lend each other energy; empty if rows stand alone.
     smooth: Vec<f32>,
     parts: Parts<'a>,
@@ -68,7 +69,7 @@ impl<'a> Painter<'a> {
             azimuths,
             kernel,
             conversion: Conversion::new(settings),
-            discs: if settings.sun_disc { drawn_discs(sky, &grid) } else { BTreeMap::new() },
+            drawn: drawn(sky, settings, &grid),
             smooth: Vec::new(),
             parts: progress.parts("render", grid.size().1),
             grid,
@@ -124,7 +125,7 @@ impl<'a> Painter<'a> {
             }
             self.parts.finish_one()?;
         }
-        for &(column, light) in self.discs.get(&row).into_iter().flatten() {
+        for &(column, light) in self.drawn.get(&row).into_iter().flatten() {
             for (value, light) in pixels[column].iter_mut().zip(light) {
                 *value += light;
             }
@@ -234,16 +235,20 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Radiance that the discs of `sky` add to pixels, by row.
-fn drawn_discs(sky: &dyn SkyLight, grid: &Grid) -> BTreeMap<usize, Vec<(usize, [f32; 3])>> {
+/// Radiance that the discs and points of `sky` add to pixels, by row.
+fn drawn(sky: &dyn SkyLight, settings: &ProbeSettings, grid: &Grid) -> BTreeMap<usize, Vec<(usize, [f32; 3])>> {
     let mut rows: BTreeMap<usize, Vec<(usize, [f32; 3])>> = BTreeMap::new();
-    for disc in sky.discs() {
-        for (column, row, energy) in disc::draw(&disc, sky.horizon_altitude(), grid).pixels() {
-            let solid_angle = grid.footprint(column, row).solid_angle;
-            if solid_angle > 0.0 {
-                rows.entry(row).or_default().push((column, energy.map(|energy| (energy / solid_angle) as f32)));
-            }
+    let mut add = |column: usize, row: usize, energy: [f64; 3]| {
+        let solid_angle = grid.footprint(column, row).solid_angle;
+        if solid_angle > 0.0 {
+            rows.entry(row).or_default().push((column, energy.map(|energy| (energy / solid_angle) as f32)));
+        }
+    };
+    for disc in sky.discs().iter().filter(|disc| settings.sun_disc || !disc.is_sun) {
+        for (column, row, energy) in disc::draw(disc, sky.horizon_altitude(), grid).pixels() {
+            add(column, row, energy);
         }
     }
+    points::draw(&sky.points(), grid, add);
     rows
 }

@@ -100,7 +100,7 @@ pub struct ProbeSettings {
     pub extent: Extent,
     /// What is seen below the horizon.
     pub ground: GroundView,
-    /// Whether the Sun's (and other) discs are drawn.
+    /// Whether the Sun's disc is drawn; other bodies always are.
     pub sun_disc: bool,
     /// What the number 1.0 stands for.
     pub scale: Scale,

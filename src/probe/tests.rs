@@ -3,7 +3,7 @@
 use super::latlong::direction;
 use super::*;
 use crate::progress::Progress;
-use crate::sky::{Disc, SkyLight};
+use crate::sky::{Disc, SkyLight, Surface};
 use crate::spectrum::{ColorSpace, Gamut};
 use crate::units::Scale;
 use glam::DVec3;
@@ -39,11 +39,12 @@ fn sky<F: Fn(f64, f64) -> f64 + Sync>(radiance: F) -> Analytic<F> {
 
 fn sun(theta: f64, azimuth: f64) -> Disc {
     Disc {
+        is_sun: true,
         direction: direction(theta, azimuth),
         horizontal_radius: 0.00465,
         vertical_radius: 0.00465,
         irradiance: [1.1, 1.0, 0.9],
-        limb_darkening: [[0.45, 0.2], [0.5, 0.2], [0.6, 0.25]],
+        surface: Surface::LimbDarkened([[0.45, 0.2], [0.5, 0.2], [0.6, 0.25]]),
     }
 }
 

@@ -6,6 +6,7 @@ mod disc;
 mod dome;
 mod filter;
 mod irradiance;
+mod layers;
 mod model;
 mod place_and_time;
 pub mod preetham;
@@ -14,17 +15,18 @@ mod thesis;
 pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::check_chosen as check_chosen_wavelengths;
 pub use cache::Cache;
-pub use disc::Disc;
+pub use disc::{Disc, Point, Surface, SurfaceMap};
 pub use dome::SkyDome;
 pub use filter::PolarisingFilter;
 pub use irradiance::{Illuminance, Irradiance};
+pub use layers::{Layer, LayerScales, Layers, OneLayer, Part};
 pub use model::{LightOptions, Model};
 pub use place_and_time::Sky;
 pub use preetham::Preetham;
 pub use thesis::ThesisSky;
 
 /// The light around an observer as a probe needs it: a smooth part that can be asked for in any direction, and discs
-/// so small and bright that they must be drawn with their exact energy.
+/// and points so small and bright that they must be drawn with their exact energy.
 ///
 /// XYZ values are integrals of spectral radiance times the CIE 1931 colour matching functions over wavelength,
 /// so that Y is luminance / 683 lm W-1 [W m-2 sr-1].
@@ -39,4 +41,14 @@ pub trait SkyLight: Sync {
 
     /// The discs above the horizon.
     fn discs(&self) -> Vec<Disc>;
+
+    /// The points of light above the horizon.
+    fn points(&self) -> Vec<Point> {
+        Vec::new()
+    }
+
+    /// The layers whose sum this light is, with their names, in the order of these; empty if it has none.
+    fn layers(&self) -> Vec<(&'static str, Box<dyn SkyLight + '_>)> {
+        Vec::new()
+    }
 }

@@ -1,7 +1,7 @@
 //! Named models of the sky's light: the solved light transport, and what others made before, to compare with.
 
 use super::SkyLight;
-use super::disc::{Disc, SOLAR_LIMB_DARKENING};
+use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::filter::PolarisingFilter;
 use super::place_and_time::Sky;
 use super::preetham::Preetham;
@@ -141,11 +141,12 @@ impl Sky {
             (0..3).for_each(|k| irradiance[k] += transmittance * weight[k]);
         }
         let disc = Disc {
+            is_sun: true,
             direction: seen,
             horizontal_radius: radius,
             vertical_radius: radius,
             irradiance,
-            limb_darkening: SOLAR_LIMB_DARKENING,
+            surface: Surface::LimbDarkened(SOLAR_LIMB_DARKENING),
         };
         let discs = if irradiance[1] > 0.0 { vec![disc] } else { Vec::new() };
         Ok(ThesisSky { estimator, weights, altitude_km, horizon, sun, discs })

@@ -1,7 +1,7 @@
 //! The sky over a place at a time.
 
 use super::atmosphere::Atmosphere;
-use super::disc::{Disc, SOLAR_LIMB_DARKENING};
+use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::dome::{Gathering, SkyDome};
 use super::filter::PolarisingFilter;
 use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal};
@@ -331,7 +331,8 @@ impl Sky {
             return Ok(Vec::new());
         }
         let direction = self.sun.apparent_direction();
-        Ok(vec![Disc { direction, horizontal_radius, vertical_radius, irradiance, limb_darkening: SOLAR_LIMB_DARKENING }])
+        let surface = Surface::LimbDarkened(SOLAR_LIMB_DARKENING);
+        Ok(vec![Disc { is_sun: true, direction, horizontal_radius, vertical_radius, irradiance, surface }])
     }
 }
 

@@ -16,7 +16,7 @@
 //! The fit holds for turbidities from 2 to 10 and a Sun above the horizon. It knows neither height, nor kind of haze, nor night.
 
 use super::SkyLight;
-use super::disc::{Disc, SOLAR_LIMB_DARKENING};
+use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use crate::atmosphere::ozone;
 use crate::ephemeris::Body;
 use crate::error::{Error, Result, check_range};
@@ -103,11 +103,12 @@ impl Preetham {
             }
         }
         let disc = Disc {
+            is_sun: true,
             direction: sun.apparent_direction(),
             horizontal_radius: angular_radius,
             vertical_radius: angular_radius,
             irradiance,
-            limb_darkening: SOLAR_LIMB_DARKENING,
+            surface: Surface::LimbDarkened(SOLAR_LIMB_DARKENING),
         };
         let mut sky = Self { sun: sun.direction(), distribution, scale, ground: [0.0; 3], disc };
         let (sky_light, upward) = (sky.diffuse_horizontal(), sky.disc.direction.z.max(0.0));

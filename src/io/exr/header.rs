@@ -55,7 +55,7 @@ pub fn header(settings: &ProbeSettings, metadata: &Metadata, packing: &Packing) 
 fn put_layout(attributes: &mut Attributes, packing: &Packing) {
     let (width, height) = packing.size();
     let mut channels = Vec::new();
-    for name in ["B", "G", "R"] {
+    for name in packing.channels() {
         // Type of the samples (1 half, 2 float), flags, a sample for each pixel.
         let kind: i32 = if packing.is_half() { 1 } else { 2 };
         channels.extend([name.as_bytes(), &[0], &kind.to_le_bytes(), &[0; 4]].concat());

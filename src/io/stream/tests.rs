@@ -2,7 +2,7 @@ use super::super::{Half, exr, save};
 use super::*;
 use crate::error::Error;
 use crate::probe::{GroundView, Projection, Rows, render};
-use crate::sky::Disc;
+use crate::sky::{Disc, Surface};
 use glam::DVec3;
 
 /// A sky with a gradient, a ground and a Sun.
@@ -22,11 +22,12 @@ impl SkyLight for Painted {
 
     fn discs(&self) -> Vec<Disc> {
         vec![Disc {
+            is_sun: true,
             direction: DVec3::new(0.6, 0.0, 0.8),
             horizontal_radius: 0.0047,
             vertical_radius: 0.0046,
             irradiance: [150.0, 160.0, 120.0],
-            limb_darkening: [[0.5, 0.2]; 3],
+            surface: Surface::LimbDarkened([[0.5, 0.2]; 3]),
         }]
     }
 }
@@ -103,9 +104,49 @@ fn a_cancelled_or_impossible_stream_leaves_what_was_there() {
 #[test]
 fn bands_are_whole_blocks_that_cover_the_picture() {
     for (width, height) in [(64, 32), (1100, 550), (4096, 2048), (16384, 8192)] {
-        let found: Vec<_> = bands(width, height).collect();
+        let found: Vec<_> = bands(width, height, 1).collect();
         assert_eq!((found[0].start, found[found.len() - 1].end), (0, height));
         assert!(found.windows(2).all(|pair| pair[0].end == pair[1].start && pair[1].start.is_multiple_of(BLOCK_ROWS)));
         assert!(found.iter().all(|rows| 12 * width * rows.len() <= 96 << 20));
     }
+}
+
+/// Layers stand beside their sum, for any reader of OpenEXR.
+#[test]
+fn layers_are_channels_whose_sum_is_the_picture() {
+    use ::exr::prelude::{FlatSamples, read_all_flat_layers_from_file};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("layers.exr");
+    let mut light = crate::sky::Layers::new(0.0);
+    let part = || crate::sky::Part { smooth: vec![Box::new(Painted)], ..Default::default() };
+    let point = crate::sky::Point { direction: DVec3::new(0.0, 0.6, 0.8), irradiance: [0.19, 0.2, 0.22] };
+    light.add(crate::sky::Layer::Zodiacal, 0.25, part());
+    light.add(crate::sky::Layer::Sky, 1.0, part());
+    light.add(crate::sky::Layer::Sun, 1.0, crate::sky::Part { discs: Painted.discs(), ..Default::default() });
+    light.add(crate::sky::Layer::Stars, 3.0, crate::sky::Part { points: vec![point], ..Default::default() });
+    let settings = ProbeSettings { width: 1024, ..Default::default() };
+    let options = FileOptions { layers: true, ..Default::default() };
+    render_to_files(&light, &settings, &[&path], &options, &Metadata::default(), &Progress::silent()).unwrap();
+    let whole = render(&light, &settings, &Progress::silent()).unwrap();
+    let picture = exr::read(&path).unwrap();
+    for (found, expected) in picture.pixels.iter().zip(&whole.pixels) {
+        assert!((found - expected).abs() < 1e-5 * expected, "{found} {expected}");
+    }
+    let image = read_all_flat_layers_from_file(&path).unwrap();
+    let channels = &image.layer_data[0].channel_data.list;
+    let names: Vec<String> = channels.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!(names.len(), 15);
+    assert!(names.is_sorted() && names[..4] == ["B", "G", "R", "sky.B"] && names[14] == "zodiacal.R", "{names:?}");
+    let values = |name: &str| {
+        let channel = channels.iter().find(|channel| channel.name.to_string() == name).unwrap();
+        let FlatSamples::F32(values) = &channel.sample_data else { panic!("float32") };
+        values.clone()
+    };
+    let sum: Vec<f32> = ["sky", "stars", "sun", "zodiacal"]
+        .iter()
+        .map(|name| values(&format!("{name}.G")))
+        .fold(vec![0.0; 1024 * 512], |sum, layer| sum.iter().zip(&layer).map(|(a, b)| a + b).collect());
+    let largest = values("G").iter().zip(&sum).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
+    assert!(largest < 1e-6, "{largest}");
+    assert!(values("stars.R").iter().filter(|&&value| value > 0.0).count() <= 4);
 }
