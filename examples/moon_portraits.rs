@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Writes `phases.png` (0, 30, 90, 150 degrees waxing, 90 waning, 165), `phases_night.png` (the same, exposed for the dark side) and `eclipse.png` (the Moon 0, 15,
-//! 25, 35, 45 and 60 arcminutes from the axis of the shadow, each exposed for its brightest tenth).
+//! 25, 30, 40 and 60 arcminutes from the axis of the shadow, luminance compressed as L / (L + median), so that rim and umbra are seen together).
 
 use glam::DVec3;
 use skyprobe::celestial::{MoonDisc, MoonView};
@@ -37,28 +37,38 @@ fn portrait(disc: &MoonDisc) -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn brightest_tenth(picture: &[[f64; 3]]) -> f64 {
+/// Green of the pixel that outshines the given share of the disc.
+fn quantile(picture: &[[f64; 3]], share: f64) -> f64 {
     let mut greens: Vec<f64> = picture.iter().map(|rgb| rgb[1]).filter(|&g| g > 0.0).collect();
     greens.sort_by(f64::total_cmp);
-    greens[greens.len() * 9 / 10]
+    greens[(greens.len() as f64 * share) as usize]
 }
 
-/// Pictures side by side, three in a row, each with the linear value that becomes white.
-fn save(path: &Path, pictures: &[(Vec<[f64; 3]>, f64)]) {
+/// Pictures side by side, three in a row, with values from 0 to 1.
+fn save(path: &Path, pictures: &[Vec<[f64; 3]>]) {
     let rows = pictures.len().div_ceil(3);
     let luminance = ColorSpace::LinRec709.matrix_to_xyz()[1];
     let image = image::RgbImage::from_fn((3 * SIZE) as u32, (rows * SIZE) as u32, |x, y| {
         let (x, y) = (x as usize, y as usize);
-        let Some((picture, white)) = pictures.get(y / SIZE * 3 + x / SIZE) else { return image::Rgb([0; 3]) };
+        let Some(picture) = pictures.get(y / SIZE * 3 + x / SIZE) else { return image::Rgb([0; 3]) };
         let rgb = Gamut::Desaturate.apply(picture[y % SIZE * SIZE + x % SIZE], luminance);
         image::Rgb(rgb.map(|value| {
-            let value = (value / white).clamp(0.0, 1.0);
+            let value = value.clamp(0.0, 1.0);
             let encoded = if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
             (255.0 * encoded + 0.5) as u8
         }))
     });
     image.save(path).expect("the folder can be written");
     println!("{}", path.display());
+}
+
+fn exposed(picture: &[[f64; 3]], white: f64) -> Vec<[f64; 3]> {
+    picture.iter().map(|rgb| rgb.map(|value| value / white)).collect()
+}
+
+fn compressed(picture: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let middle = quantile(picture, 0.5);
+    picture.iter().map(|rgb| rgb.map(|value| 0.7 * value / (rgb[1].max(0.3 * rgb[0]) + middle))).collect()
 }
 
 fn main() -> skyprobe::Result<()> {
@@ -68,15 +78,11 @@ fn main() -> skyprobe::Result<()> {
         .into_iter()
         .map(|phase| Ok(portrait(&MoonDisc::with_shadow(MoonView::schematic(phase), None)?)))
         .collect::<skyprobe::Result<_>>()?;
-    save(&folder.join("phases.png"), &phases.iter().map(|p| (p.clone(), 1.3 * brightest_tenth(p))).collect::<Vec<_>>());
-    save(&folder.join("phases_night.png"), &phases.iter().map(|p| (p.clone(), 4e-4)).collect::<Vec<_>>());
-    let eclipse: Vec<_> = [0.0, 15.0, 25.0, 35.0, 45.0, 60.0]
+    save(&folder.join("phases.png"), &phases.iter().map(|p| exposed(p, 1.3 * quantile(p, 0.9))).collect::<Vec<_>>());
+    save(&folder.join("phases_night.png"), &phases.iter().map(|p| exposed(p, 8e-4)).collect::<Vec<_>>());
+    let eclipse: Vec<_> = [0.0, 15.0, 25.0, 30.0, 40.0, 60.0]
         .into_iter()
-        .map(|minutes| {
-            let picture = portrait(&MoonDisc::new(MoonView::schematic(minutes / 60.0))?);
-            let white = 1.2 * brightest_tenth(&picture);
-            Ok((picture, white))
-        })
+        .map(|minutes| Ok(compressed(&portrait(&MoonDisc::new(MoonView::schematic(minutes / 60.0))?))))
         .collect::<skyprobe::Result<_>>()?;
     save(&folder.join("eclipse.png"), &eclipse);
     Ok(())

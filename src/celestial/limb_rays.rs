@@ -53,14 +53,15 @@ pub fn limb_rays() -> &'static [LimbRay] {
     static RAYS: LazyLock<Vec<LimbRay>> = LazyLock::new(|| {
         let air = AirTable::new();
         let mut rays = Vec::new();
-        let (mut low, mut step) = (0.0, 0.1);
+        let (mut low, mut step) = (0.0, 0.04);
         while low < TOP_KM - 1e-9 {
             let high = if low + 1.5 * step > TOP_KM { TOP_KM } else { low + step };
             let mut ray = air.trace(0.5 * (low + high));
             ray.width_km = air.impact_km(high) - air.impact_km(low);
             rays.push(ray);
             low = high;
-            step = if low < 20.0 { 0.1 } else { (low - 18.0) * 0.05 };
+            // A cell stays well below the Sun's size on the bent sky.
+            step = if low < 8.0 { 0.04 } else { (low * 0.005).max(0.05 * (low - 18.0)) };
         }
         rays
     });
