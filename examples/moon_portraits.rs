@@ -4,8 +4,9 @@
 //! cargo run --release --example moon_portraits FOLDER
 //! ```
 //!
-//! Writes `phases.png` (0, 30, 90, 150 degrees waxing, 90 waning, 165), `phases_night.png` (the same, exposed for the dark side) and `eclipse.png` (the Moon 0, 15,
-//! 25, 30, 40 and 60 arcminutes from the axis of the shadow, luminance compressed as L / (L + median), so that rim and umbra are seen together).
+//! Writes `phases.png` (0, 30, 90, 150 degrees waxing, 90 waning, 165), `phases_night.png` (the same, exposed for the dark side) and
+//! `eclipse.png` (the Moon 0, 15, 25, 30, 40 and 60 arcminutes from the axis of the shadow, luminance compressed as L / (L + median),
+//! so that rim and umbra are seen together).
 
 use glam::DVec3;
 use skyprobe::celestial::{MoonDisc, MoonView};

@@ -5,9 +5,10 @@
 //! bending  omega = -2 a integral over r from r_t of (dn / dr) / (n sqrt(n^2 r^2 - a^2)) dr
 //! column   C_q   =  2   integral over r from r_t of q(r) n r / sqrt(n^2 r^2 - a^2) dr
 //! ```
-//! n: refractive index, q: number density (air, ozone) or extinction (aerosol). The variable sqrt(r - r_t) removes the root at the lower end.
-//! Source: Garcia Munoz & Palle, Journal of Quantitative Spectroscopy & Radiative Transfer 112, 1609 (2011); Link, in Kopal (ed.), Physics and
-//! Astronomy of the Moon (1962). Air: US Standard Atmosphere 1976 with AFGL ozone, refractivity at 600 nm (it changes by 1.5 % over the visible).
+//! n: refractive index, q: number density (air, ozone) or extinction (aerosol). The variable sqrt(r - r_t) removes the root at the
+//! lower end. Source: Garcia Munoz & Palle, Journal of Quantitative Spectroscopy & Radiative Transfer 112, 1609 (2011); Link, in Kopal
+//! (ed.), Physics and Astronomy of the Moon (1962). Air: US Standard Atmosphere 1976 with AFGL ozone, refractivity at 600 nm (it
+//! changes by 1.5 % over the visible).
 
 use crate::atmosphere::{StandardAtmosphere, molecules};
 use crate::light::gauss::legendre;
@@ -50,22 +51,24 @@ pub struct LimbRay {
 
 /// Rays from the ground to [`TOP_KM`], traced at first use (some milliseconds).
 pub fn limb_rays() -> &'static [LimbRay] {
-    static RAYS: LazyLock<Vec<LimbRay>> = LazyLock::new(|| {
-        let air = AirTable::new();
-        let mut rays = Vec::new();
-        let (mut low, mut step) = (0.0, 0.04);
-        while low < TOP_KM - 1e-9 {
-            let high = if low + 1.5 * step > TOP_KM { TOP_KM } else { low + step };
-            let mut ray = air.trace(0.5 * (low + high));
-            ray.width_km = air.impact_km(high) - air.impact_km(low);
-            rays.push(ray);
-            low = high;
-            // A cell stays well below the Sun's size on the bent sky.
-            step = if low < 8.0 { 0.04 } else { (low * 0.005).max(0.05 * (low - 18.0)) };
-        }
-        rays
-    });
+    static RAYS: LazyLock<Vec<LimbRay>> = LazyLock::new(trace_all);
     &RAYS
+}
+
+fn trace_all() -> Vec<LimbRay> {
+    let air = AirTable::new();
+    let mut rays = Vec::new();
+    let (mut low, mut step) = (0.0, 0.04);
+    while low < TOP_KM - 1e-9 {
+        let high = if low + 1.5 * step > TOP_KM { TOP_KM } else { low + step };
+        let mut ray = air.trace(0.5 * (low + high));
+        ray.width_km = air.impact_km(high) - air.impact_km(low);
+        rays.push(ray);
+        low = high;
+        // A cell stays well below the Sun's size on the bent sky.
+        step = if low < 8.0 { 0.04 } else { (low * 0.005).max(0.05 * (low - 18.0)) };
+    }
+    rays
 }
 
 /// The air against height, in steps; logarithms of densities are linear between them.
@@ -180,7 +183,7 @@ mod tests {
     #[test]
     fn everything_fades_with_height() {
         let start = std::time::Instant::now();
-        let rays = limb_rays();
+        let rays = trace_all();
         println!("{} rays in {:.1} ms", rays.len(), start.elapsed().as_secs_f64() * 1e3);
         for pair in rays.windows(2) {
             assert!(pair[1].air_per_m2 < pair[0].air_per_m2 && pair[1].impact_km > pair[0].impact_km);

@@ -27,3 +27,19 @@ pub use moon_disc::{MoonDisc, MoonPoint};
 pub use moon_irradiance::MoonPhase;
 pub use moon_view::MoonView;
 pub use solar_eclipse::SolarEclipse;
+
+use crate::error::{Error, Result};
+use glam::DVec3;
+
+/// An [`Error::Input`] that names `parameter`, unless `vector` has the length 1 within 1e-6.
+fn check_unit_vector(parameter: &str, vector: DVec3) -> Result<()> {
+    if vector.is_finite() && (vector.length() - 1.0).abs() <= 1e-6 {
+        return Ok(());
+    }
+    Err(Error::input(parameter, vector, "a unit vector"))
+}
+
+/// Angle between two vectors, precise for small ones [radians].
+fn angle(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b))
+}

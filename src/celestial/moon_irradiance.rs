@@ -9,17 +9,18 @@
 //! A_k: disc-equivalent reflectance in band k: the disc's mean of pi L / E_sun over all its solid angle Omega, dark part included. g: phase
 //! angle (in radians with a, in degrees with d and p); Phi: selenographic longitude of the Sun, positive while the Moon
 //! waxes (radians); theta, phi: selenographic latitude and longitude of the observer (degrees). Coefficients of tables 4 and 5, model 311g.
-//! Some transcriptions have theta and phi exchanged in the terms of c; a map of the Moon, which a test in `moon_disc.rs` integrates, decides for this form.
+//! Some transcriptions have theta and phi exchanged in the terms of c; a map of the Moon, which a test in `moon_disc.rs` integrates,
+//! decides for this form.
 //!
-//! The bands scatter by some per cent around a smooth spectrum, an error of their calibration. As in section 4.4 of the paper, the spectrum is that
-//! of Apollo 16 soil times (u + v lambda) fitted to the bands, here to those from 350 to 882 nm and for each geometry. The paper
-//! adds 5 % of breccia 67455 to the soil; the fit takes up most of that.
+//! The bands scatter by some per cent around a smooth spectrum, an error of their calibration. As in the paper, the
+//! spectrum is that of Apollo 16 soil times (u + v lambda) fitted to the bands, here to those from 350 to 882 nm and for each
+//! geometry. The paper adds 5 % of breccia 67455 to the soil; the fit takes up most of that.
 //!
 //! # Range
 //! Measured from 1.55 to 97 degrees of phase. Towards 0 the formula is continued: 0 is 35 % brighter than 4 degrees, where
-//! spacecraft saw more than 40 % (Buratti, Hillier & Wang 1996, Icarus 124, 490): V is -13.05 at 0, -12.89 at 1.55 degrees. Above 97 degrees A goes on as a uniform sphere under the disc function of
-//! `moon_reflectance.rs` with an exponential surface phase function that keeps A and its slope continuous (colour and asymmetry
-//! stay those of 97 degrees). It passes within 0.25 mag of Allen's table up to 150 degrees, and 0 at 180.
+//! spacecraft saw more than 40 % (Buratti, Hillier & Wang 1996, Icarus 124, 490): V is -13.05 at 0, -12.89 at 1.55 degrees. Above 97
+//! degrees A goes on as a uniform sphere under the disc function of `moon_reflectance.rs` with an exponential surface phase function
+//! that keeps A and its slope continuous (colour and asymmetry stay those of 97 degrees). It passes within 0.25 mag of Allen's table up to 150 degrees, and 0 at 180.
 //!
 //! # Accuracy
 //! 1 % relative; the absolute scale is uncertain by 5 to 10 % (the paper), and later measurements are brighter: Velikodsky et al. 2011
@@ -77,8 +78,8 @@ const BANDS: [Band; 21] = [
 const C: [f64; 4] = [0.000_341_15, -0.001_342_5, 0.000_959_06, 0.000_662_29];
 const P: [f64; 4] = [4.060_54, 12.8802, -30.5858, 16.7498];
 
-/// Bidirectional reflectance (30, 0 degrees) of Apollo 16 soil 62231 (Pieters 1999, New Views of the Moon II, abstract 8025: RELAB average) at
-/// 350, 375, ... 900 nm.
+/// Bidirectional reflectance (30, 0 degrees) of Apollo 16 soil 62231 (Pieters 1999, New Views of the Moon II, abstract 8025: RELAB
+/// average) at 350, 375, ... 900 nm.
 const SOIL_62231: [f64; 23] = [
     0.08815, 0.09605, 0.10331, 0.11075, 0.11740, 0.12432, 0.13049, 0.13636, 0.14196, 0.14713, 0.15204, 0.15715, 0.16168, 0.16601,
     0.17002, 0.17343, 0.17715, 0.17974, 0.18270, 0.18506, 0.18675, 0.18823, 0.18938,

@@ -1,7 +1,7 @@
 //! Relative albedo of the Moon's surface: maria, highlands, rays.
 //!
-//! `data/moon_albedo.png`: 1024 x 512 pixels of 8 bits, reflectance = (pixel / 255)^2 up to a factor, equirectangular: longitude -180 degrees
-//! at the left edge, 0 in the middle, 180 at the right, east positive (Mare Crisium at +59, 17); latitude 90 degrees at the top. Source
+//! `data/moon_albedo.png`: 1024 x 512 pixels of 8 bits, reflectance = (pixel / 255)^2 up to a factor, equirectangular: longitude
+//! -180 degrees at the left edge, 0 in the middle, 180 at the right, east positive (Mare Crisium at +59, 17); latitude 90 degrees at the top. Source
 //! and licence: `data/README.md`.
 
 use glam::DVec3;

@@ -54,9 +54,10 @@ pub fn uniform_disc(phase: f64) -> f64 {
 
 /// Exponent of the relative albedo at `phase` [radians].
 ///
-/// The map (`moon_map.rs`) is normalised to a phase of 60 degrees, where highlands are 2.5 times as bright as maria; at full Moon the factor is
-/// about 2 (Pohn & Wildey 1970, USGS Professional Paper 599-E: normal albedos). An exponential phase function whose steepness is linear in
-/// the logarithm of the albedo makes the exponent linear in phase. Chosen to join the two; constant above 90 degrees.
+/// The map (`moon_map.rs`) is normalised to a phase of 60 degrees, where highlands are 2.5 times as bright as maria; at full Moon the
+/// factor is about 2 (Pohn & Wildey 1970, USGS Professional Paper 599-E: normal albedos). An exponential phase function whose
+/// steepness is linear in the logarithm of the albedo makes the exponent linear in phase. Chosen to join the two; constant above 90
+/// degrees.
 pub fn contrast(phase: f64) -> f64 {
     0.78 + 0.22 * phase.clamp(0.0, FRAC_PI_2) / (PI / 3.0)
 }

@@ -1,6 +1,7 @@
 //! Where Moon, Sun, Earth and observer stand: all that the Moon's appearance depends on.
 
 use super::moon_irradiance::{MOON_RADIUS_KM, MoonPhase};
+use super::{angle, check_unit_vector};
 use crate::error::{Error, Result, check_range};
 use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::{DMat3, DVec3};
@@ -30,13 +31,9 @@ impl MoonView {
         check_range("distance_km", self.distance_km, 20_000.0, 1e6, "km")?;
         check_range("earth_distance_km", self.earth_distance_km, 20_000.0, 1e6, "km")?;
         check_range("sun_distance_au", self.sun_distance_au, 0.5, 2.0, "au")?;
-        let vectors =
-            [("direction", self.direction), ("sun_direction", self.sun_direction), ("earth_direction", self.earth_direction)];
-        for (name, vector) in vectors {
-            if !((vector.length() - 1.0).abs() < 1e-6) {
-                return Err(Error::input(name, format!("{vector}"), "a unit vector"));
-            }
-        }
+        check_unit_vector("direction", self.direction)?;
+        check_unit_vector("sun_direction", self.sun_direction)?;
+        check_unit_vector("earth_direction", self.earth_direction)?;
         let matrix = self.body_to_frame;
         let departure =
             (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array().into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -112,8 +109,8 @@ impl MoonView {
         (depth >= 0.0).then(|| ((offset - depth.sqrt() * direction) / MOON_RADIUS_KM).normalize())
     }
 
-    /// Angular distance from the axis of the Earth's shadow, as [`super::EarthShadow`] counts it, of a surface point [radians]; `None` if the point is not
-    /// behind the Earth.
+    /// Angular distance from the axis of the Earth's shadow, as [`super::EarthShadow`] counts it, of a surface point [radians]; `None`
+    /// if the point is not behind the Earth.
     pub fn shadow_angle(&self, normal: DVec3) -> Option<f64> {
         let sun = self.sun_direction * (self.sun_distance_au * ASTRONOMICAL_UNIT_KM);
         let earth = self.earth_direction * self.earth_distance_km;
@@ -126,10 +123,6 @@ impl MoonView {
         let across = (point - along * axis).length();
         Some((across / along).atan() - (across / (along + (earth - sun).length())).atan())
     }
-}
-
-fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
 }
 
 #[cfg(test)]

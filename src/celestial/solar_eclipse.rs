@@ -1,25 +1,27 @@
 //! The Sun behind the Moon.
 //!
-//! Visible fraction of the light at wavelength lambda, with r the distance from the Sun's centre in its radii, mu = sqrt(1 - r^2) and A_k the
-//! coefficients of limb darkening:
+//! Visible fraction of the light at wavelength lambda, with r the distance from the Sun's centre in its radii, mu = sqrt(1 - r^2) and
+//! A_k the coefficients of limb darkening:
 //! ```text
 //! V(lambda) = sum over k of A_k M_k / sum over k of A_k pi 2 / (k + 2),
 //! M_k = integral from 0 to 1 of mu^k 2 arccos((m^2 - r^2 - d^2) / (2 r d)) r dr
 //! ```
-//! m: radius of the Moon, d: separation of the centres, in radii of the Sun; the arc cosine is half of the circle's part that is free. It is exact
-//! for round discs; mountains of the Moon (1 in 1000 of its radius) decide the last seconds before totality and are not here.
+//! m: radius of the Moon, d: separation of the centres, in radii of the Sun; the arc cosine is half of the circle's part that is free.
+//! It is exact for round discs; mountains of the Moon (1 in 1000 of its radius) decide the last seconds before totality and are not
+//! here.
 //!
 //! # The sky under the umbra
-//! The light field of the air is symmetric around the Earth-Sun axis only while the Sun shines alike on all of it. During an eclipse it is not:
-//! the shadow is 100 to 250 km wide, the lit air beyond it shines from all around the horizon. [`remaining_sky_light`] is the
-//! approximation: until shortly before totality the sky is the normal one times V (good to 99.8 % obscuration by measurement: Sharp, Silverman & Lloyd, Applied
-//! Optics 10, 1207, 1971); at totality a remainder is left that was scattered into the umbra: the zenith has 1e-4 of its normal radiance
-//! (Shaw, Applied Optics 14, 388, 1975; Emde & Mayer, Atmospheric Chemistry and Physics 7, 2259, 2007), the sky nearly symmetric
-//! around the zenith and brighter towards the horizon, in all some 3e-4 of the diffuse light (3 of 10 000 lx, as measured at many eclipses: Mollmann & Vollmer,
-//! European Journal of Physics 27, 1299, 2006).
+//! The light field of the air is symmetric around the Earth-Sun axis only while the Sun shines alike on all of it. During an eclipse
+//! it is not: the shadow is 100 to 250 km wide, the lit air beyond it shines from all around the horizon. [`remaining_sky_light`] is
+//! the approximation: until shortly before totality the sky is the normal one times V (good to 99.8 % obscuration by measurement:
+//! Sharp, Silverman & Lloyd, Applied Optics 10, 1207, 1971); at totality a remainder is left that was scattered into the umbra: the
+//! zenith has 1e-4 of its normal radiance (Shaw, Applied Optics 14, 388, 1975; Emde & Mayer, Atmospheric Chemistry and Physics 7,
+//! 2259, 2007), the sky nearly symmetric around the zenith and brighter towards the horizon, in all some 3e-4 of the diffuse light (3
+//! of 10 000 lx, as measured at many eclipses: Mollmann & Vollmer, European Journal of Physics 27, 1299, 2006).
 
-use super::limb_darkening::{DISC_MEAN_OF_POWERS, coefficients};
-use crate::error::{Error, Result, check_range};
+use super::limb_darkening::{DISC_MEAN_OF_POWERS, coefficients, mean_intensity, relative_intensity};
+use super::{angle, check_unit_vector};
+use crate::error::{Result, check_range};
 use crate::light::gauss::legendre;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -44,11 +46,8 @@ impl SolarEclipse {
     pub fn new(sun_direction: DVec3, sun_radius_deg: f64, moon_direction: DVec3, moon_radius_deg: f64) -> Result<Self> {
         check_range("sun_radius_deg", sun_radius_deg, 0.05, 5.0, "degrees")?;
         check_range("moon_radius_deg", moon_radius_deg, 0.05, 5.0, "degrees")?;
-        for (name, vector) in [("sun_direction", sun_direction), ("moon_direction", moon_direction)] {
-            if !((vector.length() - 1.0).abs() < 1e-6) {
-                return Err(Error::input(name, format!("{vector}"), "a unit vector"));
-            }
-        }
+        check_unit_vector("sun_direction", sun_direction)?;
+        check_unit_vector("moon_direction", moon_direction)?;
         Ok(Self {
             sun_direction,
             moon_direction,
@@ -79,11 +78,11 @@ impl SolarEclipse {
 
     /// Angle between the centres [radians].
     pub fn separation(&self) -> f64 {
-        self.sun_direction.cross(self.moon_direction).length().atan2(self.sun_direction.dot(self.moon_direction))
+        angle(self.sun_direction, self.moon_direction)
     }
 
-    /// Position angle of the Moon's centre from the Sun's, from the direction of `up` (such as the zenith or the celestial pole) counterclockwise as seen
-    /// from within the sphere, -pi to pi [radians].
+    /// Position angle of the Moon's centre from the Sun's, from the direction of `up` (such as the zenith or the celestial pole)
+    /// counterclockwise as seen from within the sphere, -pi to pi [radians].
     pub fn position_angle(&self, up: DVec3) -> f64 {
         let left = up.cross(self.sun_direction);
         let above = self.sun_direction.cross(left);
@@ -133,14 +132,15 @@ impl SolarEclipse {
             .collect()
     }
 
-    /// Radiance of the Sun's disc in `direction` (unit vector) over its mean over the whole disc, at `wavelength_nm`; 0 beside the disc and where the Moon is.
+    /// Radiance of the Sun's disc in `direction` (unit vector) over its mean over the whole disc, at `wavelength_nm`; 0 beside the
+    /// disc and where the Moon is.
     pub fn relative_radiance(&self, direction: DVec3, wavelength_nm: f64) -> f64 {
         let distance = angle(direction, self.sun_direction) / self.sun_radius;
         if distance > 1.0 || self.covers(direction) {
             return 0.0;
         }
         let mu = (1.0 - distance * distance).max(0.0).sqrt();
-        super::limb_darkening::relative_intensity(mu, wavelength_nm) / super::limb_darkening::mean_intensity(wavelength_nm)
+        relative_intensity(mu, wavelength_nm) / mean_intensity(wavelength_nm)
     }
 
     /// Whether the Moon's disc stands in `direction` (unit vector).
@@ -179,10 +179,6 @@ pub(super) fn free_half_arc(r: f64, moon: f64, separation: f64) -> f64 {
         return if r < moon { 0.0 } else { PI };
     }
     ((moon * moon - r * r - separation * separation) / (2.0 * r * separation)).clamp(-1.0, 1.0).acos().clamp(0.0, PI)
-}
-
-pub(super) fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
 }
 
 /// Sky light left over the normal sky's, in the direction of `altitude` above the horizon [radians], when the part `visible` of the
