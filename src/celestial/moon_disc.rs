@@ -70,7 +70,7 @@ impl MoonPoint {
 }
 
 impl MoonDisc {
-    /// The disc in `view`; the Earth's shadow, where it matters, through the default limb of the Earth. 1 ms; an eclipse about 50 ms.
+    /// The disc in `view`; the Earth's shadow, where it matters, through the default limb of the Earth. 4 ms; an eclipse about 20 ms.
     pub fn new(view: MoonView) -> Result<Self> {
         view.validate()?;
         let sun_distance_km = view.sun_distance_au * ASTRONOMICAL_UNIT_KM;
