@@ -19,6 +19,7 @@
 #![warn(missing_docs)]
 
 pub mod atmosphere;
+pub mod celestial;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod ephemeris;
