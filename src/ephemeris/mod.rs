@@ -17,23 +17,46 @@
 //! # Ok::<(), skyprobe::Error>(())
 //! ```
 
+mod bodies;
 mod body;
+mod celestial_frames;
 mod earth;
 mod horizon;
+mod illumination;
+mod moon;
+mod moon_elp;
+mod moon_orientation;
+mod moon_thesis;
 mod observer;
 mod place;
+mod planet_magnitude;
+mod planet_vsop;
+mod planets;
+mod position_angle;
 mod refraction;
 mod refraction_path;
 mod root;
+mod stars;
 mod sun;
 mod sun_events;
 mod sun_thesis;
+mod table_bytes;
 
+pub use bodies::{Bodies, bodies};
 pub use body::Body;
+pub use celestial_frames::{
+    direction_from_longitude_latitude, icrs_to_ecliptic_j2000, icrs_to_ecliptic_of_date, icrs_to_galactic, longitude_latitude_deg,
+};
 pub use earth::EarthState;
 pub use horizon::{direction_from_horizontal, horizontal_from_direction};
+pub use illumination::Illumination;
+pub use moon::{MOON_RADIUS_KM, MoonModel, MoonState};
+pub use moon_orientation::SurfacePoint;
 pub use observer::{Apparent, Observer};
 pub use place::Place;
+pub use planets::{Planet, PlanetState};
+pub use position_angle::position_angle_deg;
 pub use refraction::Refraction;
+pub use stars::{StarFrame, StarPosition};
 pub use sun::{SunModel, sun, sun_at};
 pub use sun_events::{SunCrossings, SunEvents, sun_crossings, sun_events};
