@@ -88,8 +88,9 @@ fn the_planets() {
         assert_position(row, body);
         let gap = body.magnitude.unwrap() - number(row, "mag_mallama2018");
         println!("   magnitude {gap:+.4}, surface {:+.3}", bodies.planet(planet).unwrap().surface_magnitude);
-        // Skyfield counts the distance from the Sun from the barycentre of the solar system: up to 0.02 magnitudes.
-        assert!(gap.abs() < 0.02, "{} {planet}: {gap}", row["case"]);
+        // The table's magnitudes (Skyfield's own) take the barycentre of the solar system for the Sun, which changes distances and the phase angle
+        // of a crescent; with the Sun in its place they agree within 0.0002 (`own_reference_bodies.rs`).
+        assert!(gap.abs() < 0.04, "{} {planet}: {gap}", row["case"]);
     }
 }
 

@@ -133,6 +133,11 @@ impl Observer {
         self.position
     }
 
+    /// From the observer to the Earth's centre [au], x = east, y = north, z = up.
+    pub fn earth_centre(&self) -> DVec3 {
+        self.to_horizon * (self.earth.earth - self.position)
+    }
+
     /// Velocity in the BCRS in units of the speed of light.
     pub(super) fn velocity_over_c(&self) -> DVec3 {
         self.velocity * LIGHT_DAYS_PER_AU

@@ -9,8 +9,8 @@
 //! | Mars | 6, 7 | phase angle; see below |
 //! | Jupiter | 8 | phase angle |
 //! | Saturn | 10 | phase angle and tilt of the rings, which are part of the light |
-//! | Uranus | 14 | latitude that faces Sun and Earth |
-//! | Neptune | 15, 16 | year: brightening from 1980 to 2000 |
+//! | Uranus | 14 | latitude that faces Sun and Earth, phase angle beyond 3.1 degrees |
+//! | Neptune | 15 to 17 | year: brightening from 1980 to 2000; phase angle beyond 1.9 degrees |
 //!
 //! Mars besides varies with the face that it shows (L1, by the mean of the longitudes below Earth and Sun) and with its season (L2, by the longitude
 //! of the Sun seen from it), each within 0.09 magnitudes (Mallama 2007, Icarus 192, 404). That part is a number of its own
@@ -78,18 +78,23 @@ pub(super) fn saturn(at: &Circumstances) -> f64 {
     at.with_distances(-8.914 - 1.825 * tilt + 0.026 * phase - 0.378 * tilt * (-2.25 * phase).exp())
 }
 
-/// Without the phase function of eq. 14, which is meant for spacecraft: seen from the Earth the phase angle is below 3.1 degrees.
+/// Eq. 14. As in the authors' program its phase function begins at 3.1 degrees, which is reached from the Earth only around Uranus's perihelion; below, it is
+/// part of the constant.
 pub(super) fn uranus(at: &Circumstances) -> f64 {
     /// Square of equatorial over polar radius: 25559 / 24973 km (IAU WGCCRE).
     const FLATTENING: f64 = (25_559.0 / 24_973.0) * (25_559.0 / 24_973.0);
+    const LIMIT_DEG: f64 = 3.1;
     let planetographic = |latitude: f64| (FLATTENING * latitude.to_radians().tan()).atan().to_degrees().abs();
     let latitude = 0.5 * (planetographic(at.sub_observer_latitude_deg) + planetographic(at.sub_solar_latitude_deg));
-    at.with_distances(-7.110 - 0.000_84 * latitude)
+    let phase = if at.phase_angle_deg > LIMIT_DEG { polynomial(&[0.0, 6.587e-3, 1.045e-4], at.phase_angle_deg) } else { 0.0 };
+    at.with_distances(-7.110 - 0.000_84 * latitude + phase)
 }
 
-/// Eqs. 15 and 16. Without eq. 17, the phase function for spacecraft: seen from the Earth the phase angle is below 1.9 degrees.
+/// Eqs. 15 to 17; the phase function (known after 2000 only) begins at 1.9 degrees, the largest phase angle seen from the Earth.
 pub(super) fn neptune(at: &Circumstances) -> f64 {
-    at.with_distances((-6.89 - 0.0054 * (at.year - 1980.0)).clamp(-7.00, -6.89))
+    const LIMIT_DEG: f64 = 1.9;
+    let phase = if at.phase_angle_deg > LIMIT_DEG { polynomial(&[0.0, 7.944e-3, 9.617e-5], at.phase_angle_deg) } else { 0.0 };
+    at.with_distances((-6.89 - 0.0054 * (at.year - 1980.0)).clamp(-7.00, -6.89) + phase)
 }
 
 /// Mallama 2007, tables 7 and 8 as in the authors' program: every 10 degrees from 0, magnitudes.
@@ -192,6 +197,14 @@ mod tests {
             };
             assert!((uranus(&tilted) - expected).abs() < 0.0006);
         }
+        let from_behind = Circumstances {
+            sub_observer_latitude_deg: centric(55.11),
+            sub_solar_latitude_deg: centric(-71.16),
+            ..at(19.380_030_717_75, 11.188_424_380_138_3, 161.7728)
+        };
+        assert!((uranus(&from_behind) - 8.318).abs() < 0.0006);
+        let near = Circumstances { year: 2018.1409, ..at(29.943_863_119_56, 0.009_409_689_422_51, 88.4363) };
+        assert!((neptune(&near) + 8.296).abs() < 0.0006);
         for (r, d, year, expected) in [
             (30.322_109_867_761, 31.309_161_009_821_4, 1970.8963, 7.997),
             (30.207_767_693_725, 29.817_237_085_753, 1990.3240, 7.827),
