@@ -6,11 +6,11 @@
 use super::body::Body;
 use super::illumination::Illumination;
 use super::moon_elp;
+use super::moon_magnitude::moon_magnitude;
 use super::moon_orientation::{SurfacePoint, body_fixed_to_icrs};
 use super::moon_thesis;
 use super::observer::{Apparent, Observer};
 use super::place::Place;
-use super::planet_magnitude;
 use super::position_angle::position_angle_deg;
 use super::refraction::Refraction;
 use crate::error::{Error, Result};
@@ -108,20 +108,20 @@ pub(super) fn moon_state(
     let orientation = observer.to_horizon() * body_fixed_to_icrs(observer.tt().plus_seconds(-86_400.0 * seen.light_days));
     let from_horizon = orientation.transpose();
     let axis = orientation * DVec3::Z;
+    let sub_observer = SurfacePoint::below(from_horizon * -seen.direction);
+    let sub_solar = SurfacePoint::below(from_horizon * illumination.sun_direction);
+    let distance_km = seen.distance_au * ASTRONOMICAL_UNIT_KM;
     let mut body = Body::seen("Moon", &seen, MOON_RADIUS_KM, refraction);
-    body.magnitude = Some(planet_magnitude::moon(
-        illumination.phase_angle_deg,
-        seen.distance_au * ASTRONOMICAL_UNIT_KM,
-        illumination.sun_distance_au,
-    ));
+    body.magnitude =
+        Some(moon_magnitude(illumination.phase_angle_deg, distance_km, illumination.sun_distance_au, sub_observer, sub_solar));
     body.phase_angle_deg = Some(illumination.phase_angle_deg);
     body.illuminated_fraction = Some(illumination.illuminated_fraction);
     MoonState {
         body,
         illumination,
         orientation,
-        sub_observer: SurfacePoint::below(from_horizon * -seen.direction),
-        sub_solar: SurfacePoint::below(from_horizon * illumination.sun_direction),
+        sub_observer,
+        sub_solar,
         axis_position_angle_deg: position_angle_deg(seen.direction, axis, north),
         axis_from_zenith_deg: position_angle_deg(seen.direction, axis, DVec3::Z),
     }

@@ -27,11 +27,11 @@ const W1: Polynomial =
 /// Longitude of the Moon's perigee. The corrections of the rates of perigee and node consist of a fitted part (0.08017, -0.04317) and of what the
 /// corrected mean motions, inclination and eccentricities do to the secular motions (the paper's partial derivatives).
 const W2: Polynomial =
-    [300_071.674_75 + 0.207_94, 14_643_420.3171 + 0.076_071_502_6, -38.2631 + 0.004_706_02, -0.045_047 - 2.5213e-4, 2.1301e-4];
+    [300_071.674_75 + 0.207_94, 14_643_420.317_1 + 0.076_071_502_6, -38.2631 + 0.004_706_02, -0.045_047 - 2.5213e-4, 2.1301e-4];
 
 /// Longitude of the Moon's node.
 const W3: Polynomial =
-    [450_160.398_16 - 0.072_15, -6_967_919.5383 - 0.043_169_060_7, 6.359 - 0.002_610_7, 0.007_625 - 1.0712e-4, -3.586e-5];
+    [450_160.398_16 - 0.072_15, -6_967_919.538_3 - 0.043_169_060_7, 6.359 - 0.002_610_7, 0.007_625 - 1.0712e-4, -3.586e-5];
 
 /// Mean longitude of the Earth-Moon barycentre.
 const EARTH: Polynomial = [361_679.138_85 - 3.3e-4, 129_597_742.293 + 0.007_32, -0.0202, 9e-6, 1.5e-7];
@@ -52,7 +52,7 @@ const PLANETS: [(f64, f64); 8] = [
 ];
 
 /// Rate of precession, with its correction [arcseconds a century].
-const PRECESSION: f64 = 5_029.0966 - 0.299_65;
+const PRECESSION: f64 = 5_029.096_6 - 0.299_65;
 
 /// Ratio of the semi-major axes of DE405 and of ELP, which the series of the distance is scaled by.
 const AXIS_RATIO: f64 = 384_747.961_370_173 / 384_747.980_674_318;
