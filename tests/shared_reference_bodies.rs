@@ -14,7 +14,8 @@ fn rows() -> Option<Vec<Row>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference/ephemeris.csv");
     let Ok(table) = std::fs::read_to_string(&path) else {
         // Not println: the test harness hides that of tests that pass.
-        writeln!(std::io::stderr(), "skipped: ../shared/reference/ephemeris.csv is not there").unwrap();
+        let mut errors = std::io::stderr();
+        writeln!(errors, "skipped: ../shared/reference/ephemeris.csv is not there").unwrap();
         return None;
     };
     let mut lines = table.lines();

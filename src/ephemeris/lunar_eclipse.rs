@@ -50,7 +50,8 @@ impl EarthShadow {
 }
 
 impl Bodies {
-    /// The Earth's shadow at the distance of the Moon, whether the Moon is in it or not.
+    /// The Earth's shadow at the distance of the Moon, whether the Moon is in it or not. Asks for the precise models: the thesis's Moon has no parallax,
+    /// and with it the shadow is a degree off.
     pub fn earth_shadow(&self) -> EarthShadow {
         const EARTH_RADIUS_KM: f64 = 6_378.137;
         const ENLARGEMENT: f64 = 1.01;

@@ -6,7 +6,7 @@
 //! two angles this into the GCRS (DE405: obliquity 84381.40960 arcseconds, equinox -0.05028 arcseconds; Chapront, Chapront-Touze & Francou 2002,
 //! A&A 387, 700).
 //!
-//! 2199 terms (`data/scripts/moon_elp_mpp02.py`): within 0.16 arcseconds and 0.3 km of JPL's DE421 from 1900 to 2050.
+//! 2199 terms (`data/scripts/moon_elp_mpp02.py`): within 0.13 arcseconds and 0.2 km of JPL's DE423 from 1900 to 2100.
 
 use super::table_bytes::TableBytes;
 use crate::time::JulianDate;

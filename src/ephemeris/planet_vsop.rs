@@ -4,8 +4,8 @@
 //! variable = sum of A t^p cos(phase + frequency t), t in Julian millennia TDB from J2000. The variables of VSOP87A are heliocentric x, y, z on
 //! the ecliptic of J2000; those of VSOP2013 the elements a, lambda, k = e cos w, h = e sin w, q = sin(i/2) cos W, p = sin(i/2) sin W.
 //!
-//! Largest geocentric errors from 1900 to 2100 against JPL's DE423 [arcseconds], with the cut of `data/scripts/planets_vsop.py`: Mercury 0.2, Venus 0.2,
-//! Mars 0.4, Jupiter 0.5, Saturn 0.5, Uranus 0.9, Neptune 0.6. VSOP87's own Uranus and Neptune are 1.7 and 2.6 arcseconds off.
+//! Largest geocentric errors from 1900 to 2100 against JPL's DE423 [arcseconds], with the cut of `data/scripts/planets_vsop.py`: Mercury 0.1, Venus 0.2,
+//! Mars 0.4, Jupiter 0.5, Saturn 0.4, Uranus 0.9, Neptune 0.6. VSOP87's own Uranus and Neptune are 1.7 and 2.6 arcseconds off.
 
 use super::planets::Planet;
 use super::table_bytes::TableBytes;

@@ -31,7 +31,7 @@ pub struct SolarEclipse {
 }
 
 impl Bodies {
-    /// The eclipse of the Sun, if the Moon's disc covers a part of it.
+    /// The eclipse of the Sun, if the Moon's disc covers a part of it. Asks for the precise models: the thesis's Moon has no parallax.
     pub fn solar_eclipse(&self) -> Option<SolarEclipse> {
         let (sun, moon) = (self.sun.direction(), self.moon.body.direction());
         let apart = separation(sun, moon).to_degrees();

@@ -4,7 +4,7 @@
 //! [`StarFrame`] holds them for one observer, and a star then costs some twenty multiplications.
 //!
 //! - motion: p = p_0 + mu t - pi r_o (normalised), mu = proper motion [radians a year], r_o = the observer's barycentric place [au],
-//!   pi = parallax [radians]; radial velocity is left out (Sirius: 0.02 arcseconds in a century);
+//!   pi = parallax [radians]; radial velocity is left out (Sirius: 0.03 arcseconds in a century);
 //! - deflection: p + 2 G M / (c^2 d) (e - (p.e) p) / (1 + p.e), e = unit vector from Sun to observer, d its distance;
 //! - aberration: p / gamma + (1 + p.v / (1 + 1 / gamma)) v + w (v - (p.v) p), v in units of c, w = the Sun's potential (SOFA `ab`).
 //!
