@@ -23,6 +23,16 @@ def unpack_from_pypi(requirement: str) -> Path:
     return folder
 
 
+def unpack_from_crates_io(name: str, version: str) -> Path:
+    """Downloads one crate by cargo (which also fetches what it depends on) and returns the folder it was unpacked into."""
+    folder = Path(tempfile.mkdtemp(prefix="skyprobe-data-"))
+    manifest = f'[package]\nname = "fetch"\nversion = "0.0.0"\nedition = "2024"\n[lib]\npath = "lib.rs"\n[dependencies]\n{name} = "={version}"\n'
+    (folder / "Cargo.toml").write_text(manifest, encoding="utf-8")
+    (folder / "lib.rs").touch()
+    subprocess.run(["cargo", "vendor", "--quiet", "vendor"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return folder / "vendor" / name
+
+
 def write_table(name: str, header: list[str], columns: str, rows: list[tuple], formats: list[str]) -> None:
     """Writes data/NAME: comment lines, one line of column names, one line a row."""
     lines = [f"# {line}" for line in header] + [columns]

@@ -1,6 +1,9 @@
 //! A body as it stands in the sky.
 
-use super::horizon::direction_from_horizontal;
+use super::horizon::{direction_from_horizontal, horizontal_from_direction};
+use super::observer::Apparent;
+use super::refraction::Refraction;
+use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::DVec3;
 
 /// Where a body is seen, how large and how bright.
@@ -27,6 +30,22 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body of `radius_km` seen at `place`, its apparent altitude by `refraction`; without magnitude and phase.
+    pub(super) fn seen(name: &str, place: &Apparent, radius_km: f64, refraction: &Refraction) -> Self {
+        let (altitude_deg, azimuth_deg) = horizontal_from_direction(place.direction);
+        Self {
+            name: name.to_owned(),
+            altitude_deg,
+            azimuth_deg,
+            apparent_altitude_deg: refraction.apparent_altitude_deg(altitude_deg),
+            distance_au: place.distance_au,
+            angular_diameter_deg: 2.0 * (radius_km / (place.distance_au * ASTRONOMICAL_UNIT_KM)).asin().to_degrees(),
+            magnitude: None,
+            phase_angle_deg: None,
+            illuminated_fraction: None,
+        }
+    }
+
     /// Unit vector to the airless position, x = east, y = north, z = up.
     pub fn direction(&self) -> DVec3 {
         direction_from_horizontal(self.altitude_deg, self.azimuth_deg)

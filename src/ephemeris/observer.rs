@@ -2,17 +2,18 @@
 //!
 //! For a body at r_b(t) and an observer at r_o(t) with velocity v_o (BCRS):
 //! - light time: tau = |r_b(t - tau) - r_o(t)| / c, by iteration;
+//! - deflection: the Sun's mass bends the light of bodies other than itself (SOFA `ld`), 1.75 arcseconds at its limb;
 //! - aberration: the natural direction is turned by the observer's velocity (SOFA `ab`: special relativity and the Sun's potential);
 //! - horizon: u_ENU = H R(ERA) C u, with C the IAU 2006/2000A precession-nutation to the intermediate system, R the rotation by the
 //!   Earth rotation angle of UT1 (together SOFA `c2t06a`), H the local axes on the WGS84 ellipsoid.
 //!
 //! The observer takes part in the rotation of the Earth, so parallax and diurnal aberration are included. Neglected: polar
-//! motion (<= 0.6 arcseconds), deflection of light by the Sun (0 for the Sun itself, 0.004 arcseconds at 90 degrees from it).
+//! motion (<= 0.6 arcseconds), deflection of light by the planets.
 //! Sources: IERS Conventions 2010; SOFA, "Tools for Earth Attitude" and "SOFA Astrometry Tools".
 
 use super::earth::EarthState;
 use super::place::Place;
-use crate::time::Time;
+use crate::time::{JulianDate, Time};
 use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::{DMat3, DVec3};
 
@@ -29,6 +30,8 @@ pub struct Observer {
     velocity: DVec3,
     earth: EarthState,
     to_horizon: DMat3,
+    tt: JulianDate,
+    north: DVec3,
 }
 
 /// Where a body is seen.
@@ -38,24 +41,38 @@ pub struct Apparent {
     pub direction: DVec3,
     /// Distance that the light has travelled [au].
     pub distance_au: f64,
+    /// Time that the light has travelled [days].
+    pub light_days: f64,
+    /// From the observer to where the body was when it sent the light, before deflection and aberration [au, GCRS].
+    pub astrometric: DVec3,
 }
 
 impl Observer {
     /// The observer at `place` and `time`. Costs some 0.2 ms (1400 terms of nutation); then any number of bodies can be asked for.
     pub fn new(place: &Place, time: &Time) -> Self {
+        Self::at_site(wgs84_au(place), horizon_axes(place), time)
+    }
+
+    /// An observer at the centre of the Earth, whose "horizon" is that of the north pole: for what almanacs define geocentrically.
+    pub(super) fn geocentric(time: &Time) -> Self {
+        Self::at_site(DVec3::ZERO, DMat3::IDENTITY, time)
+    }
+
+    fn at_site(site: DVec3, axes: DMat3, time: &Time) -> Self {
         let (tt, ut1) = (time.tt(), time.ut1());
         let earth = EarthState::at(tt);
         // SOFA matrices act on columns and are stored by rows.
         let rows = sofars::pnp::c2t06a(tt.day, tt.fraction, ut1.day, ut1.fraction, 0.0, 0.0);
         let to_terrestrial = DMat3::from_cols_array_2d(&rows).transpose();
         let to_celestial = to_terrestrial.transpose();
-        let site = wgs84_au(place);
         let rotation = EARTH_ROTATION_PER_DAY * DVec3::new(-site.y, site.x, 0.0);
         Self {
             position: earth.earth + to_celestial * site,
             velocity: earth.earth_velocity + to_celestial * rotation,
             earth,
-            to_horizon: horizon_axes(place) * to_terrestrial,
+            to_horizon: axes * to_terrestrial,
+            tt,
+            north: axes * DVec3::Z,
         }
     }
 
@@ -78,12 +95,62 @@ impl Observer {
             path = position_before(light_days) - self.position;
         }
         let distance_au = path.length();
+        let natural = self.deflected(path / distance_au, self.position + path - self.earth.sun);
+        Apparent { direction: self.to_horizon * self.aberrated(natural), distance_au, light_days, astrometric: path }
+    }
+
+    /// The unit vector `direction` as the Sun's mass bends the light from it, of a body at `from_sun` [au].
+    pub(super) fn deflected(&self, direction: DVec3, from_sun: DVec3) -> DVec3 {
+        /// Closer to the Sun's centre than this a body is the Sun [au].
+        const SUN_AU: f64 = 0.01;
+        /// Within about 5 arcminutes of the Sun's centre the bending is held, as SOFA's `ldsun` does.
+        const LIMIT: f64 = 1e-6;
+        let source = from_sun.length();
+        if source < SUN_AU {
+            return direction;
+        }
+        let sun_to_observer = self.position - self.earth.sun;
+        let distance = sun_to_observer.length();
+        let unit = (sun_to_observer / distance).to_array();
+        DVec3::from(sofars::astro::ld(1.0, direction.to_array(), (from_sun / source).to_array(), unit, distance, LIMIT))
+    }
+
+    /// The unit vector `natural` (GCRS) as the moving observer sees it (GCRS).
+    fn aberrated(&self, natural: DVec3) -> DVec3 {
         let velocity = self.velocity * LIGHT_DAYS_PER_AU;
         let inverse_lorentz = (1.0 - velocity.length_squared()).sqrt();
         let sun_distance = (self.earth.sun - self.position).length();
-        let natural = (path / distance_au).to_array();
-        let proper = sofars::astro::ab(&natural, &velocity.to_array(), sun_distance, inverse_lorentz);
-        Apparent { direction: (self.to_horizon * DVec3::from(proper)).normalize(), distance_au }
+        DVec3::from(sofars::astro::ab(&natural.to_array(), &velocity.to_array(), sun_distance, inverse_lorentz)).normalize()
+    }
+
+    /// The date of observation.
+    pub fn tt(&self) -> JulianDate {
+        self.tt
+    }
+
+    /// Position in the BCRS [au].
+    pub(super) fn position(&self) -> DVec3 {
+        self.position
+    }
+
+    /// From the observer to the Earth's centre [au], x = east, y = north, z = up.
+    pub fn earth_centre(&self) -> DVec3 {
+        self.to_horizon * (self.earth.earth - self.position)
+    }
+
+    /// Velocity in the BCRS in units of the speed of light.
+    pub(super) fn velocity_over_c(&self) -> DVec3 {
+        self.velocity * LIGHT_DAYS_PER_AU
+    }
+
+    /// Matrix from the GCRS to x = east, y = north, z = up.
+    pub fn to_horizon(&self) -> DMat3 {
+        self.to_horizon
+    }
+
+    /// Direction of the celestial north pole of date, x = east, y = north, z = up.
+    pub fn celestial_north(&self) -> DVec3 {
+        self.north
     }
 
     /// Where an apparent direction of date is seen that is already known in the GCRS (unit vector): only turned to the horizon.

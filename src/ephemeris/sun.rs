@@ -5,7 +5,7 @@
 
 use super::body::Body;
 use super::horizon::horizontal_from_direction;
-use super::observer::Observer;
+use super::observer::{Apparent, Observer};
 use super::place::Place;
 use super::refraction::Refraction;
 use super::sun_thesis;
@@ -63,14 +63,36 @@ pub fn sun_at(altitude_deg: f64, azimuth_deg: f64, refraction: &Refraction) -> R
 pub(super) fn direction_and_distance(place: &Place, time: &Time, model: SunModel) -> (DVec3, f64) {
     match model {
         SunModel::Iau => {
-            let observer = Observer::new(place, time);
-            let earth = *observer.earth();
-            // The Sun's own motion about the barycentre is 15 m/s: straight for the 8 minutes of the light's way.
-            let seen = observer.apparent(|days| earth.sun - days * earth.sun_velocity);
+            let seen = observe(&Observer::new(place, time));
             (seen.direction, seen.distance_au)
         }
         SunModel::Thesis => sun_thesis::direction_and_distance(place, time),
     }
+}
+
+/// Where the Sun is seen by `observer`.
+pub(super) fn observe(observer: &Observer) -> Apparent {
+    let earth = *observer.earth();
+    // The Sun's own motion about the barycentre is 15 m/s: straight for the 8 minutes of the light's way.
+    observer.apparent(|days| earth.sun - days * earth.sun_velocity)
+}
+
+/// Where the Sun is seen by `observer`, who stands at `place` and `time`, by either model.
+pub(super) fn sun_seen(observer: &Observer, place: &Place, time: &Time, model: SunModel) -> Apparent {
+    let seen = observe(observer);
+    match model {
+        SunModel::Iau => seen,
+        SunModel::Thesis => {
+            let (direction, distance_au) = sun_thesis::direction_and_distance(place, time);
+            Apparent { direction, distance_au, ..seen }
+        }
+    }
+}
+
+/// The body of the Sun where it is `seen`.
+pub(super) fn sun_body(seen: &Apparent, refraction: &Refraction) -> Body {
+    let (altitude_deg, azimuth_deg) = horizontal_from_direction(seen.direction);
+    body(altitude_deg, azimuth_deg, seen.distance_au, refraction)
 }
 
 fn body(altitude_deg: f64, azimuth_deg: f64, distance_au: f64, refraction: &Refraction) -> Body {

@@ -17,7 +17,7 @@
 
 use super::place::Place;
 use super::root::bracketed_root;
-use super::sun::{SunModel, direction_and_distance};
+use super::target::Target;
 use crate::error::{Result, check_range};
 use crate::time::Time;
 
@@ -132,14 +132,12 @@ impl<'a> Day<'a> {
 }
 
 fn altitude_deg(place: &Place, time: &Time) -> f64 {
-    direction_and_distance(place, time, SunModel::Iau).0.z.clamp(-1.0, 1.0).asin().to_degrees()
+    Target::Sun.hour_angle_and_altitude_deg(place, time).1
 }
 
 /// Local hour angle of the Sun, -180 to 180, positive after the transit [degrees].
 fn hour_angle_deg(place: &Place, time: &Time) -> f64 {
-    let direction = direction_and_distance(place, time, SunModel::Iau).0;
-    let (sin_latitude, cos_latitude) = place.latitude_deg.to_radians().sin_cos();
-    (-direction.x).atan2(direction.z * cos_latitude - direction.y * sin_latitude).to_degrees()
+    Target::Sun.hour_angle_and_altitude_deg(place, time).0
 }
 
 #[cfg(test)]

@@ -17,15 +17,26 @@
 use super::place::Place;
 use crate::time::{JulianDate, Time};
 use crate::units::ASTRONOMICAL_UNIT_KM;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Geocentric direction (x = east, y = north, z = up) and distance [au].
 pub(super) fn direction_and_distance(place: &Place, time: &Time) -> (DVec3, f64) {
-    let days = time.ut1() - JulianDate::from_days(2_451_545.0);
+    let days = days_since_2000(time);
     let (longitude, distance_km) = ecliptic(days);
+    (horizontal(place, days, longitude, 0.0), distance_km / ASTRONOMICAL_UNIT_KM)
+}
+
+/// j: days since 2000-01-01 12:00 UT1.
+pub(super) fn days_since_2000(time: &Time) -> f64 {
+    time.ut1() - JulianDate::from_days(2_451_545.0)
+}
+
+/// Appendix A: direction (x = east, y = north, z = up) of an ecliptic longitude and latitude of date [radians].
+pub(super) fn horizontal(place: &Place, days: f64, longitude: f64, latitude: f64) -> DVec3 {
     let obliquity = 0.409_093 - 6.218e-9 * days;
-    // Eqs. 33-35 with beta = 0; components are (cos alpha cos delta, sin alpha cos delta, sin delta).
-    let equatorial = DVec3::new(longitude.cos(), obliquity.cos() * longitude.sin(), obliquity.sin() * longitude.sin());
+    // Eqs. 33-35; components are (cos alpha cos delta, sin alpha cos delta, sin delta).
+    let ecliptic = DVec3::new(longitude.cos() * latitude.cos(), longitude.sin() * latitude.cos(), latitude.sin());
+    let equatorial = DMat3::from_rotation_x(obliquity) * ecliptic;
     let sidereal_time = local_sidereal_time(days, place.longitude_deg);
     let right_ascension = equatorial.y.atan2(equatorial.x);
     let hour_angle = sidereal_time - right_ascension;
@@ -35,7 +46,7 @@ pub(super) fn direction_and_distance(place: &Place, time: &Time) -> (DVec3, f64)
     let west = hour_angle.sin() * cos_declination;
     let south = hour_angle.cos() * cos_declination * sin_latitude - equatorial.z * cos_latitude;
     let up = hour_angle.cos() * cos_declination * cos_latitude + equatorial.z * sin_latitude;
-    (DVec3::new(-west, -south, up).normalize(), distance_km / ASTRONOMICAL_UNIT_KM)
+    DVec3::new(-west, -south, up).normalize()
 }
 
 /// Eq. 36: ecliptic longitude [radians] and distance [km].

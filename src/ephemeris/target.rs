@@ -1,0 +1,77 @@
+//! One body as the events ask for it: where it is seen from a place at a time.
+
+use super::moon::{self, MOON_RADIUS_KM};
+use super::observer::{Apparent, Observer};
+use super::place::Place;
+use super::planets::{self, Planet};
+use super::sun;
+use crate::time::Time;
+use crate::units::{ASTRONOMICAL_UNIT_KM, SOLAR_RADIUS_KM};
+
+/// A body of the solar system that rises and sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Target {
+    /// The Sun.
+    Sun,
+    /// The Moon.
+    Moon,
+    /// A planet.
+    Planet(Planet),
+}
+
+impl Target {
+    /// English name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sun => "Sun",
+            Self::Moon => "Moon",
+            Self::Planet(planet) => planet.name(),
+        }
+    }
+
+    /// Where it is seen by `observer`, by the precise models.
+    pub(super) fn observe(self, observer: &Observer) -> Apparent {
+        match self {
+            Self::Sun => sun::observe(observer),
+            Self::Moon => moon::observe(observer),
+            Self::Planet(planet) => planets::observe(observer, planet),
+        }
+    }
+
+    /// Airless altitude of the centre less that at which it rises and sets [degrees].
+    ///
+    /// 34 arcminutes of refraction for all; Sun and Moon appear and disappear with the upper limb, the Sun with the 16 arcminutes of the almanacs'
+    /// convention, the Moon with its true semidiameter; planets are points.
+    pub(super) fn height_above_rise_deg(self, place: &Place, time: &Time) -> f64 {
+        const REFRACTION_DEG: f64 = 34.0 / 60.0;
+        const SUN_DEG: f64 = 16.0 / 60.0;
+        let seen = self.observe(&Observer::new(place, time));
+        let semidiameter_deg = match self {
+            Self::Sun => SUN_DEG,
+            Self::Moon => (MOON_RADIUS_KM / (seen.distance_au * ASTRONOMICAL_UNIT_KM)).asin().to_degrees(),
+            Self::Planet(_) => 0.0,
+        };
+        altitude_deg(&seen) + REFRACTION_DEG + semidiameter_deg
+    }
+
+    /// Local hour angle, -180 to 180, positive after the upper transit [degrees], and airless altitude [degrees].
+    pub(super) fn hour_angle_and_altitude_deg(self, place: &Place, time: &Time) -> (f64, f64) {
+        let seen = self.observe(&Observer::new(place, time));
+        let (sin_latitude, cos_latitude) = place.latitude_deg.to_radians().sin_cos();
+        let south = seen.direction.z * cos_latitude - seen.direction.y * sin_latitude;
+        ((-seen.direction.x).atan2(south).to_degrees(), altitude_deg(&seen))
+    }
+
+    /// Mean radius that eclipses and discs are drawn with [km].
+    pub const fn radius_km(self) -> f64 {
+        match self {
+            Self::Sun => SOLAR_RADIUS_KM,
+            Self::Moon => MOON_RADIUS_KM,
+            Self::Planet(planet) => planet.radius_km(),
+        }
+    }
+}
+
+fn altitude_deg(seen: &Apparent) -> f64 {
+    seen.direction.z.atan2(seen.direction.x.hypot(seen.direction.y)).to_degrees()
+}
