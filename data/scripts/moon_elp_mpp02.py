@@ -22,7 +22,8 @@ from packages import DATA, unpack_from_crates_io
 CUTS = {"LONGITUDE": 0.002, "LATITUDE": 0.002, "DISTANCE": 0.005}
 ARCSECOND = np.pi / 648000
 
-# Constants of the main problem [radians, radians a century] and their corrections for DE405 (Chapront & Francou 2003, tables 3 and 6).
+# Constants of the main problem [radians, radians a century] and their corrections for DE405 (Chapront & Francou 2003 and their
+# program ELPMPP02).
 M = 0.074801329
 ALPHA = 0.002571881
 MEAN_MOTION = (1732559343.73604 - 0.35106) * ARCSECOND

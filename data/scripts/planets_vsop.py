@@ -27,7 +27,7 @@ VSOP2013 = {"uranus": 7, "neptune": 8}
 SMALLEST_DISTANCE_AU = {"mercury": 0.53, "venus": 0.26, "mars": 0.37, "jupiter": 3.95, "saturn": 8.0}
 CUT_ARCSECONDS = 0.01
 
-# Mean longitudes at J2000 [radians] and mean motions [radians a millennium] that VSOP2013's multipliers belong to (its file README).
+# Mean longitudes at J2000 [radians] and mean motions [radians a millennium] that VSOP2013's multipliers belong to (as its authors' program has them).
 LONGITUDES = np.array([
     4.402608631669, 3.176134461576, 1.753470369433, 6.203500014141, 4.091360003050, 1.713740719173, 5.598641292287, 2.805136360408,
     2.326989734620, 0.599546107035, 0.874018510107, 5.481225395663, 5.311897933164, 0.0, 5.19846640063, 1.62790513602, 2.35555563875,

@@ -49,7 +49,7 @@ impl FromStr for MoonModel {
 /// The Moon as it stands in the sky.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MoonState {
-    /// Position, size, magnitude, phase.
+    /// Position, size, phase, magnitude (outside the air and outside the Earth's shadow).
     pub body: Body,
     /// Phase, bright limb, direction of the light.
     pub illumination: Illumination,

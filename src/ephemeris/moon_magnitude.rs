@@ -9,7 +9,7 @@
 //! longitude of the observer [degrees]; d, r: distance of the Moon from observer and Sun. The mean of ln A at 549.1 and 553.8 nm stands for the V band.
 //!
 //! Waxing phases are 6 to 13 % brighter than waning ones. Measured from 1.55 to 97 degrees, about 1 % scatter. Below, the exponentials are continued;
-//! beyond 97 degrees, the curve goes on with the shape of 0.026 g + 4e-9 g^4 magnitudes (Allen 1976, Astrophysical Quantities, sect. 66).
+//! beyond 97 degrees, the curve goes on with the shape of 0.026 g + 4e-9 g^4 magnitudes (Allen 1976, Astrophysical Quantities, p. 144).
 
 use super::moon_orientation::SurfacePoint;
 

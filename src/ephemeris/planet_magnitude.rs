@@ -97,7 +97,7 @@ pub(super) fn neptune(at: &Circumstances) -> f64 {
     at.with_distances((-6.89 - 0.0054 * (at.year - 1980.0)).clamp(-7.00, -6.89) + phase)
 }
 
-/// Mallama 2007, tables 7 and 8 as in the authors' program: every 10 degrees from 0, magnitudes.
+/// Mallama 2007, as the authors' program tabulates it: every 10 degrees from 0, magnitudes.
 const MARS_FACE: [f64; 36] = [
     0.036, 0.045, 0.038, 0.023, 0.015, 0.011, 0.000, -0.012, -0.018, -0.036, -0.044, -0.059, -0.060, -0.055, -0.043, -0.041,
     -0.041, -0.036, -0.036, -0.018, -0.038, -0.011, 0.002, 0.004, 0.018, 0.019, 0.035, 0.050, 0.035, 0.027, 0.037, 0.048, 0.025,

@@ -93,7 +93,7 @@ fn position_from_elements([axis, longitude, k, h, q, p]: [f64; 6]) -> DVec3 {
     )
 }
 
-/// From the dynamical ecliptic and equinox of VSOP87 to FK5, which is the ICRS within 0.02 arcseconds (Bretagnon & Francou 1988, sect. 3).
+/// From the dynamical ecliptic and equinox of VSOP87 to FK5, which is the ICRS within 0.02 arcseconds (Bretagnon & Francou 1988).
 fn vsop87_to_icrs() -> DMat3 {
     DMat3::from_cols(
         DVec3::new(1.0, -4.799_66e-7, 0.0),
@@ -102,7 +102,7 @@ fn vsop87_to_icrs() -> DMat3 {
     )
 }
 
-/// From VSOP2013's ecliptic and equinox of J2000 to the ICRS: obliquity 84381.41136 arcseconds, equinox -0.05188 arcseconds (Simon et al. 2013, sect. 6).
+/// From VSOP2013's ecliptic and equinox of J2000 to the ICRS: obliquity 84381.41136 arcseconds, equinox -0.05188 arcseconds (Simon et al. 2013).
 fn vsop2013_to_icrs() -> DMat3 {
     DMat3::from_rotation_z(-0.051_88 * ARCSECOND) * DMat3::from_rotation_x(84_381.411_36 * ARCSECOND)
 }
