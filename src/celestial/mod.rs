@@ -13,8 +13,12 @@
 //! |---|---|---|---|
 //! | [`ZodiacalLight`] | 2: radiance at 500 nm of the redder and of the bluer light [W m-2 sr-1 nm-1] | ICRS | above the air |
 //! | [`MilkyWay`] | 1: brightness [S10(V)] | ICRS | above the air |
+//! | [`MilkyWay`] | 1: brightness [S10(V)] | ICRS | above the air |
 //! | [`Airglow`] | 2: path length through the layers at 90 and 250 km, vertical = 1 | horizon, z up | above (nearly all of) the air |
 //! | [`LightPollution`] | 1: luminance [cd m-2] | horizon, z up | **in** the air: what arrives at the ground, not to be extinguished |
+//!
+//! Scalars cost 0.09 (Milky Way) to 0.13 microseconds (zodiacal light) a direction and the spectra a millisecond; all 61 762 stars
+//! on 32 wavelengths take 2 ms.
 //!
 //! # Conventions
 //! - Celestial directions are ICRS unit vectors; wavelengths in nm, ascending; spectra are means over about 10 nm, lines are
@@ -42,10 +46,13 @@ mod diffuse;
 mod frames;
 mod lamps;
 mod light_pollution;
+mod milky_way;
 pub mod photometry;
 mod planet_light;
 mod star_spectra;
 mod stars;
+#[cfg(test)]
+mod tests;
 mod zodiacal;
 
 pub use airglow::{Airglow, van_rhijn};
@@ -53,6 +60,7 @@ pub use diffuse::DiffuseLight;
 pub use frames::{ecliptic_from_icrs, galactic_from_icrs};
 pub use lamps::Lamps;
 pub use light_pollution::{LightPollution, bortle_zenith_brightness};
+pub use milky_way::{MilkyWay, starlight_to};
 pub use planet_light::{Planet, planet_irradiance};
 pub use star_spectra::StarSpectra;
 pub use stars::{Star, star_named, stars_to};
