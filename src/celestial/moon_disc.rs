@@ -13,10 +13,11 @@
 //! The night side has no relief, so that the terminator is smooth; the Sun's size (0.5 degrees on the Moon) is not resolved there.
 
 use super::earth_shadow::{EarthLimb, EarthShadow};
-use super::moon_irradiance::{DiscReflectance, MOON_RADIUS_KM, MoonPhase};
+use super::moon_irradiance::{DiscReflectance, MoonPhase};
 use super::moon_reflectance::{contrast, disc_function};
 use super::moon_view::MoonView;
 use super::{earthshine, moon_map};
+use crate::ephemeris::MOON_RADIUS_KM;
 use crate::error::Result;
 use crate::light::gauss::legendre;
 use crate::units::ASTRONOMICAL_UNIT_KM;

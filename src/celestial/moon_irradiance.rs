@@ -27,10 +27,8 @@
 //! (Icarus 214, 30) by 13 %.
 
 use super::moon_reflectance::uniform_disc;
+use crate::ephemeris::MOON_RADIUS_KM;
 use crate::error::{Result, check_range};
-
-/// Radius of the Moon [km] (IAU 2015).
-pub const MOON_RADIUS_KM: f64 = 1737.4;
 
 /// Distance for which the paper's solid angle of the Moon, 6.4177e-5 sr, holds [km].
 pub const STANDARD_DISTANCE_KM: f64 = 384_400.0;

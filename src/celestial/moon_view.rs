@@ -1,7 +1,8 @@
 //! Where Moon, Sun, Earth and observer stand: all that the Moon's appearance depends on.
 
-use super::moon_irradiance::{MOON_RADIUS_KM, MoonPhase};
+use super::moon_irradiance::MoonPhase;
 use super::{angle, check_unit_vector};
+use crate::ephemeris::MOON_RADIUS_KM;
 use crate::error::{Error, Result, check_range};
 use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::{DMat3, DVec3};

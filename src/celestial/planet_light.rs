@@ -6,72 +6,37 @@
 //! phase angles).
 
 use super::photometry::{V_ZERO_IRRADIANCE, v_band_mean};
+use crate::ephemeris::Planet;
 use crate::spectrum::solar;
-
-/// A planet other than the Earth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Planet {
-    /// Mercury.
-    Mercury,
-    /// Venus.
-    Venus,
-    /// Mars.
-    Mars,
-    /// Jupiter.
-    Jupiter,
-    /// Saturn.
-    Saturn,
-    /// Uranus.
-    Uranus,
-    /// Neptune.
-    Neptune,
-}
 
 /// Effective wavelengths of the bands U, B, V, mean of Rc and R, Ic, I [nm].
 const BANDS_NM: [f64; 6] = [360.0, 436.0, 549.0, 670.0, 798.0, 900.0];
 
-impl Planet {
-    /// All planets, from the Sun outwards.
-    pub const ALL: [Self; 7] = [Self::Mercury, Self::Venus, Self::Mars, Self::Jupiter, Self::Saturn, Self::Uranus, Self::Neptune];
-
-    /// English name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Mercury => "Mercury",
-            Self::Venus => "Venus",
-            Self::Mars => "Mars",
-            Self::Jupiter => "Jupiter",
-            Self::Saturn => "Saturn",
-            Self::Uranus => "Uranus",
-            Self::Neptune => "Neptune",
-        }
+/// Geometric albedos in those bands.
+const fn albedos(planet: Planet) -> [f64; 6] {
+    match planet {
+        Planet::Mercury => [0.087, 0.105, 0.142, 0.165, 0.180, 0.208],
+        Planet::Venus => [0.348, 0.658, 0.689, 0.683, 0.640, 0.584],
+        Planet::Mars => [0.060, 0.088, 0.170, 0.269, 0.285, 0.330],
+        Planet::Jupiter => [0.358, 0.443, 0.538, 0.504, 0.389, 0.321],
+        Planet::Saturn => [0.203, 0.339, 0.499, 0.607, 0.543, 0.423],
+        Planet::Uranus => [0.502, 0.561, 0.488, 0.233, 0.089, 0.079],
+        Planet::Neptune => [0.578, 0.562, 0.442, 0.204, 0.072, 0.067],
     }
+}
 
-    const fn albedos(self) -> [f64; 6] {
-        match self {
-            Self::Mercury => [0.087, 0.105, 0.142, 0.165, 0.180, 0.208],
-            Self::Venus => [0.348, 0.658, 0.689, 0.683, 0.640, 0.584],
-            Self::Mars => [0.060, 0.088, 0.170, 0.269, 0.285, 0.330],
-            Self::Jupiter => [0.358, 0.443, 0.538, 0.504, 0.389, 0.321],
-            Self::Saturn => [0.203, 0.339, 0.499, 0.607, 0.543, 0.423],
-            Self::Uranus => [0.502, 0.561, 0.488, 0.233, 0.089, 0.079],
-            Self::Neptune => [0.578, 0.562, 0.442, 0.204, 0.072, 0.067],
-        }
-    }
-
-    /// Geometric albedo at `wavelength_nm`; the end values outside 360 to 900 nm.
-    pub fn geometric_albedo(self, wavelength_nm: f64) -> f64 {
-        let albedos = self.albedos();
-        let right = BANDS_NM.partition_point(|&band| band <= wavelength_nm).clamp(1, BANDS_NM.len() - 1);
-        let fraction = ((wavelength_nm - BANDS_NM[right - 1]) / (BANDS_NM[right] - BANDS_NM[right - 1])).clamp(0.0, 1.0);
-        albedos[right - 1] + fraction * (albedos[right] - albedos[right - 1])
-    }
+/// Geometric albedo of `planet` at `wavelength_nm`; the end values outside 360 to 900 nm.
+pub fn geometric_albedo(planet: Planet, wavelength_nm: f64) -> f64 {
+    let albedos = albedos(planet);
+    let right = BANDS_NM.partition_point(|&band| band <= wavelength_nm).clamp(1, BANDS_NM.len() - 1);
+    let fraction = ((wavelength_nm - BANDS_NM[right - 1]) / (BANDS_NM[right] - BANDS_NM[right - 1])).clamp(0.0, 1.0);
+    albedos[right - 1] + fraction * (albedos[right] - albedos[right - 1])
 }
 
 /// Spectral irradiance outside the air of `planet` at magnitude `v_magnitude`, at `wavelengths_nm` (means over 10 nm) [W m-2
 /// nm-1].
 pub fn planet_irradiance(planet: Planet, v_magnitude: f64, wavelengths_nm: &[f64]) -> Vec<f64> {
-    let sunlight = |wavelength: f64| solar::irradiance(wavelength, solar::BAND_WIDTH_NM) * planet.geometric_albedo(wavelength);
+    let sunlight = |wavelength: f64| solar::irradiance(wavelength, solar::BAND_WIDTH_NM) * geometric_albedo(planet, wavelength);
     let scale = 10f64.powf(-0.4 * v_magnitude) * V_ZERO_IRRADIANCE / v_band_mean(sunlight);
     wavelengths_nm.iter().map(|&wavelength| scale * sunlight(wavelength)).collect()
 }
@@ -100,7 +65,7 @@ mod tests {
             (Planet::Uranus, 0.56),
             (Planet::Neptune, 0.41),
         ] {
-            let got = 0.653 + 2.5 * (planet.geometric_albedo(549.0) / planet.geometric_albedo(436.0)).log10();
+            let got = 0.653 + 2.5 * (geometric_albedo(planet, 549.0) / geometric_albedo(planet, 436.0)).log10();
             assert!((got - b_minus_v).abs() < 0.07, "{}: {got}", planet.name());
         }
     }

@@ -107,9 +107,9 @@ fn star(row: &[u8]) -> Option<Star> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frames::unit_vector;
     use super::super::photometry::SQUARE_DEGREES_PER_STERADIAN;
     use super::*;
+    use crate::ephemeris::direction_from_longitude_latitude as unit_vector;
 
     fn light_s10(limit: f64) -> f64 {
         let sum: f64 = stars_to(limit).iter().map(|star| 10f64.powf(-0.4 * (star.v_magnitude - 10.0))).sum();

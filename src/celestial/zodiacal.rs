@@ -17,10 +17,10 @@
 //! the year.
 
 use super::diffuse::DiffuseLight;
-use super::frames::ecliptic_from_icrs;
+use crate::ephemeris::icrs_to_ecliptic_j2000;
 use crate::spectrum::binned::columns;
 use crate::spectrum::solar;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::sync::LazyLock;
 
 const LATITUDES_DEG: [f64; 11] = [0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 45.0, 60.0, 75.0, 90.0];
@@ -83,18 +83,20 @@ fn radiance_500(longitude_deg: f64, latitude_deg: f64) -> f64 {
 pub struct ZodiacalLight {
     sun: DVec3,
     sun_longitude_rad: f64,
+    to_ecliptic: DMat3,
 }
 
 impl ZodiacalLight {
     /// With the Sun in the direction `sun`: ICRS unit vector, as seen from the Earth.
     pub fn new(sun: DVec3) -> Self {
-        let ecliptic = ecliptic_from_icrs(sun);
-        Self { sun, sun_longitude_rad: ecliptic.y.atan2(ecliptic.x) }
+        let to_ecliptic = icrs_to_ecliptic_j2000();
+        let ecliptic = to_ecliptic * sun;
+        Self { sun, sun_longitude_rad: ecliptic.y.atan2(ecliptic.x), to_ecliptic }
     }
 
     /// Radiance at 500 nm from `direction` (ICRS unit vector) [W m-2 sr-1 nm-1].
     pub fn radiance_500(&self, direction: DVec3) -> f64 {
-        let ecliptic = ecliptic_from_icrs(direction);
+        let ecliptic = self.to_ecliptic * direction;
         let latitude = ecliptic.z.clamp(-1.0, 1.0).asin().abs().to_degrees();
         let difference = (ecliptic.y.atan2(ecliptic.x) - self.sun_longitude_rad).to_degrees().abs();
         radiance_500(if difference > 180.0 { 360.0 - difference } else { difference }, latitude)
@@ -131,11 +133,11 @@ mod tests {
 
     /// ICRS direction at ecliptic longitude and latitude [degrees].
     fn icrs(longitude_deg: f64, latitude_deg: f64) -> DVec3 {
-        let ecliptic = super::super::frames::unit_vector(longitude_deg, latitude_deg);
+        let ecliptic = crate::ephemeris::direction_from_longitude_latitude(longitude_deg, latitude_deg);
         DVec3::new(
-            ecliptic.dot(ecliptic_from_icrs(DVec3::X)),
-            ecliptic.dot(ecliptic_from_icrs(DVec3::Y)),
-            ecliptic.dot(ecliptic_from_icrs(DVec3::Z)),
+            ecliptic.dot(icrs_to_ecliptic_j2000() * DVec3::X),
+            ecliptic.dot(icrs_to_ecliptic_j2000() * DVec3::Y),
+            ecliptic.dot(icrs_to_ecliptic_j2000() * DVec3::Z),
         )
     }
 
