@@ -9,10 +9,10 @@
 //! - A: such that the zenith has 145 + 130 (S - 0.8) / 1.2 S10(V) above the lower air, S: solar radio flux at 10.7 cm in MJy
 //!   (Krisciunas 1997, PASP 109, 1181; Benn & Ellison 1998, New Astron. Rev. 42, 503), 166 ucd m-2 at the long-term mean S = 1.3.
 //!   Single nights differ by a factor of 2 either way: `strength`.
-//! - Lines at that mean [rayleigh]: OI 557.7 nm 200, Na 589.0/589.6 nm 50, OI 630.0 nm 60, 636.4 nm 20 (Leinert et al. 1998, A&AS
+//! - Lines at that mean in rayleigh: OI 557.7 nm 200, Na 589.0/589.6 nm 50, OI 630.0 nm 60, 636.4 nm 20 (Leinert et al. 1998, A&AS
 //!   127, 1, table 13, gives 250, 30 to 100, 60, 20). Hydroxyl bands 9-3, 6-1, 7-2 and 8-3: rounded; they hold 2 % of the
 //!   luminance.
-//! - Continuum (NO2, FeO, O2 bands unresolved) [rayleigh / nm]: shape of the zenith spectrum of Kitt Peak at solar minimum
+//! - Continuum (NO2, FeO, O2 bands unresolved) in rayleigh per nm: shape of the zenith spectrum of Kitt Peak at solar minimum
 //!   (Neugent & Massey 2010, PASP 122, 1246) less zodiacal light, starlight and half of the bump around 595 nm, which there is
 //!   partly from sodium lamps.
 
@@ -28,16 +28,16 @@ const LAYER_HEIGHTS_KM: [f64; 2] = [90.0, 250.0];
 /// Smallest cosine of the angle to the layer's normal: a layer 10 km thick, seen along its tangent.
 const SMALLEST_COSINE: f64 = 0.039;
 
-/// Wavelength [nm] and photon radiance [rayleigh] of the mesopause's lines.
+/// Wavelength [nm] and photon radiance (rayleigh) of the mesopause's lines.
 const LINES: [(f64, f64); 3] = [(557.73, 200.0), (589.0, 33.0), (589.6, 17.0)];
 
-/// Wavelength [nm] and photon radiance [rayleigh] of the red oxygen lines.
+/// Wavelength [nm] and photon radiance (rayleigh) of the red oxygen lines.
 const RED_LINES: [(f64, f64); 2] = [(630.03, 60.0), (636.38, 20.0)];
 
-/// First, last wavelength [nm] and photon radiance [rayleigh] of the hydroxyl bands 9-3, 6-1, 7-2, 8-3.
+/// First, last wavelength [nm] and photon radiance (rayleigh) of the hydroxyl bands 9-3, 6-1, 7-2, 8-3.
 const BANDS: [(f64, f64, f64); 4] = [(624.0, 634.0, 40.0), (647.0, 660.0, 30.0), (683.0, 697.0, 90.0), (723.0, 740.0, 250.0)];
 
-/// Wavelength [nm] and photon radiance [rayleigh per nm] of the continuum.
+/// Wavelength [nm] and photon radiance (rayleigh per nm) of the continuum.
 const CONTINUUM: [(f64, f64); 17] = [
     (360.0, 1.6),
     (385.0, 1.8),
