@@ -236,14 +236,7 @@ pub fn run(options: &Options) -> Result<()> {
             return Ok(());
         }
         let metadata = describe(&sky, config.sun_model, &config.light, &config.probe);
-        render_to_files(
-            &*sky.light_by(&config.light, progress)?,
-            &config.probe,
-            &config.output,
-            &config.file,
-            &metadata,
-            progress,
-        )
+        render_to_files(&sky.light_by(&config.light, progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
     })?;
     let (width, height, sun) = (config.probe.width, config.probe.height(), sky.sun());
     let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);

@@ -17,7 +17,7 @@ use crate::ephemeris::{Place, SunModel};
 use crate::error::{Error, Result, check_range};
 use crate::probe::ProbeSettings;
 use crate::quality::Quality;
-use crate::sky::{Atmosphere, LightOptions, Model, PolarisingFilter, Sky, check_chosen_wavelengths};
+use crate::sky::{Atmosphere, LightOptions, Model, NightOptions, PolarisingFilter, Sky, check_chosen_wavelengths};
 use crate::time::{Time, ZoneChoice};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -41,8 +41,10 @@ pub struct Config {
     pub sun: Option<SunPosition>,
     /// By which theory the Sun's position is computed.
     pub sun_model: SunModel,
-    /// By which model, through which filter and how exactly the sky is rendered: the keys `model`, `polarising_filter` and `tolerance`.
+    /// By which model, through which filter, how exactly and with which layers the sky is rendered: the keys `model`, `polarising_filter`, `tolerance` and `layers`.
     pub light: LightOptions,
+    /// The night.
+    pub night: NightOptions,
     /// The state of the air.
     pub atmosphere: AtmosphereConfig,
     /// The image.
@@ -96,6 +98,8 @@ struct Document {
     model: Model,
     polarising_filter: Option<Value>,
     tolerance: Option<f64>,
+    layers: Option<Value>,
+    night: Option<Value>,
     atmosphere: Option<Value>,
     probe: Option<Value>,
     file: Option<Value>,
@@ -151,7 +155,9 @@ impl Config {
                     .map(|filter| json::read::<PolarisingFilter>("polarising_filter", &filter))
                     .transpose()?,
                 tolerance: document.tolerance,
+                layers: document.layers.map(|layers| json::read("layers", &layers)).transpose()?.unwrap_or_default(),
             },
+            night: document.night.map(|night| json::read("night", &night)).transpose()?.unwrap_or_default(),
             atmosphere: document
                 .atmosphere
                 .map(|air| AtmosphereConfig::from_value("atmosphere", &air))
@@ -188,6 +194,10 @@ impl Config {
         put("model", value_of(&self.light.model));
         put("polarising_filter", value_of(&self.light.polarising_filter));
         put("tolerance", value_of(&self.light.tolerance));
+        if !self.light.layers.0.is_empty() {
+            put("layers", value_of(&self.light.layers));
+        }
+        put("night", value_of(&self.night));
         put("atmosphere", self.atmosphere.to_value());
         put("probe", value_of(&self.probe));
         put("file", value_of(&self.file));
@@ -227,6 +237,7 @@ impl Config {
             check_chosen_wavelengths(wavelengths_nm).map_err(|error| json::within(air_table, error))?;
         }
         self.light.validate()?;
+        self.night.validate()?;
         self.probe.validate().map_err(|error| json::within(probe_table, error))
     }
 
@@ -261,13 +272,13 @@ impl Config {
     /// [`Error::Input`] if place, time and Sun are missing or out of range.
     pub fn sky(&self, atmosphere: Arc<Atmosphere>) -> Result<Sky> {
         if let Some(sun) = &self.sun {
-            return Sky::with_sun(sun.altitude_deg, sun.azimuth_deg, self.elevation_m, atmosphere);
+            return Sky::with_sun(sun.altitude_deg, sun.azimuth_deg, self.elevation_m, atmosphere)?.with_night(self.night);
         }
         let place = self.place()?;
         let Some(text) = &self.time else {
             return Err(Error::input("time", "nothing", "given, such as 2005-06-21T13:00:00+02:00"));
         };
-        Sky::new(place, time_at(&place, text, self.zone.as_deref())?, self.sun_model, atmosphere)
+        Sky::new(place, time_at(&place, text, self.zone.as_deref())?, self.sun_model, atmosphere)?.with_night(self.night)
     }
 }
 

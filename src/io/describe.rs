@@ -35,7 +35,8 @@ fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &Pr
         zone: time.and_then(Time::zone_name).map(str::to_string),
         sun: place.is_none().then_some(put),
         sun_model,
-        light: *light,
+        light: light.clone(),
+        night: *sky.night(),
         atmosphere: AtmosphereConfig {
             air: atmosphere.parameters()?.clone(),
             quality: atmosphere.quality(),

@@ -227,6 +227,15 @@ impl LightField {
     }
 }
 
+impl LightField {
+    /// Transmittance from `altitude_km` along the ray of zenith cosine `mu` to the ground or to space, by wavelength, forward peaks counted as transmitted.
+    pub fn ray_transmittance(&self, altitude_km: f64, mu: f64) -> Vec<f64> {
+        let depths =
+            self.blocks.iter().flat_map(|block| Ray::optical_depth(&block.air, &self.grid.shells, altitude_km, mu, self.limits));
+        depths.take(self.wavelengths).map(|depth| (-f64::from(depth)).exp()).collect()
+    }
+}
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn gather_block(grid: &Grid, block: &Block, ray: &Ray<LANES>, sun_zenith: f64, azimuths: &[f64], parts: &mut [Lanes<LANES>]) {
     let (air, sunlight, field) = (&block.air, &block.sunlight, &block.field);

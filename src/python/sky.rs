@@ -314,7 +314,7 @@ impl Sky {
         let light = self.light_options(polarising_filter, tolerance)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
         let rendered =
-            work::run(py, progress, |progress| probe::render(&*self.inner.light_by(&light, progress)?, &settings, progress))?;
+            work::run(py, progress, |progress| probe::render(&self.inner.light_by(&light, progress)?, &settings, progress))?;
         Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &light, &settings)))
     }
 
@@ -356,12 +356,12 @@ impl Sky {
     ) -> PyResult<()> {
         let light = self.light_options(polarising_filter, tolerance)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops };
+        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, layers: false };
         check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
         check_output(&path)?;
         let metadata = describe(&self.inner, self.sun_model, &light, &settings);
         work::run(py, progress, |progress| {
-            render_to_files(&*self.inner.light_by(&light, progress)?, &settings, &[&path], &options, &metadata, progress)
+            render_to_files(&self.inner.light_by(&light, progress)?, &settings, &[&path], &options, &metadata, progress)
         })
     }
 
@@ -415,7 +415,12 @@ impl Sky {
 
 impl Sky {
     fn light_options(&self, filter: Option<PyRef<'_, PolarisingFilter>>, tolerance: Option<f64>) -> PyResult<LightOptions> {
-        let options = LightOptions { model: self.model, polarising_filter: filter.map(|filter| filter.inner), tolerance };
+        let options = LightOptions {
+            model: self.model,
+            polarising_filter: filter.map(|filter| filter.inner),
+            tolerance,
+            ..Default::default()
+        };
         options.validate()?;
         Ok(options)
     }

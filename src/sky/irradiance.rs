@@ -1,5 +1,6 @@
 //! What a surface receives, computed from the light field directly and not by way of a picture.
 
+use super::SkyLight;
 use crate::error::Result;
 use crate::light::{LightField, Observer, gauss};
 use crate::progress::Progress;
@@ -24,9 +25,13 @@ pub struct Illuminance {
     pub direct_normal_lx: f64,
     /// By the Sun's disc on the horizontal plane.
     pub direct_horizontal_lx: f64,
-    /// By the sky on the horizontal plane.
+    /// By the Moon's disc on a surface that faces it.
+    pub moon_normal_lx: f64,
+    /// By the Moon's disc on the horizontal plane.
+    pub moon_horizontal_lx: f64,
+    /// By the sky with stars and planets on the horizontal plane.
     pub diffuse_horizontal_lx: f64,
-    /// By both.
+    /// By all of them on the horizontal plane.
     pub global_horizontal_lx: f64,
 }
 
@@ -57,4 +62,19 @@ pub(super) fn diffuse_horizontal(field: &LightField, observer: &Observer, progre
         })
         .collect::<Result<Vec<_>>>()?;
     Ok((0..circles[0].len()).map(|w| circles.iter().map(|circle| circle[w]).sum()).collect())
+}
+
+/// XYZ irradiance of the horizontal plane by `light` without its discs [W m-2].
+pub(super) fn horizontal_irradiance(light: &dyn SkyLight) -> [f64; 3] {
+    let azimuths: Vec<f64> = (0..2 * AZIMUTHS).map(|a| (a as f64 + 0.5) * PI / AZIMUTHS as f64).collect();
+    let circle = |(t, weight): (f64, f64)| {
+        let mu = t * t;
+        let mut row = vec![[0.0_f32; 3]; azimuths.len()];
+        light.radiance_circle(mu.asin(), &azimuths, &mut row);
+        let share = 2.0 * t * weight * mu * TAU / azimuths.len() as f64;
+        row.iter().fold([0.0; 3], |sum, xyz| std::array::from_fn(|k| sum[k] + share * f64::from(xyz[k])))
+    };
+    let add = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
+    let smooth = gauss::legendre(CIRCLES).into_par_iter().map(circle).reduce(|| [0.0; 3], add);
+    light.points().iter().fold(smooth, |sum, point| add(sum, point.irradiance.map(|value| value * point.direction.z.max(0.0))))
 }

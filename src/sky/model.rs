@@ -3,6 +3,7 @@
 use super::SkyLight;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::filter::PolarisingFilter;
+use super::layers::{Layer, LayerScales, Layers, Part};
 use super::place_and_time::Sky;
 use super::preetham::Preetham;
 use super::thesis::ThesisSky;
@@ -56,7 +57,7 @@ impl FromStr for Model {
 }
 
 /// By which model, through which filter and how exactly a sky is rendered.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LightOptions {
     /// The model.
     pub model: Model,
@@ -65,6 +66,8 @@ pub struct LightOptions {
     /// Relative error that interpolation between gathered directions may have, 0.0001 to 0.5: directions are added until those that were not there before agree.
     /// Without it their number is that of the quality. For [`Model::Scattering`] only.
     pub tolerance: Option<f64>,
+    /// Factors on the light of single layers.
+    pub layers: LayerScales,
 }
 
 /// Checks a tolerance.
@@ -78,6 +81,7 @@ impl LightOptions {
     /// # Errors
     /// [`Error::Input`] that names the parameter.
     pub fn validate(&self) -> Result<()> {
+        self.layers.validate()?;
         let left_out = || format!("left out for the model {}", self.model.name());
         if let Some(filter) = &self.polarising_filter {
             filter.validate()?;
@@ -102,20 +106,22 @@ impl From<Model> for LightOptions {
 }
 
 impl Sky {
-    /// All light around the observer as `options` say, ready to be made into a probe.
+    /// All light around the observer as `options` say, ready to be made into a probe. Models other than [`Model::Scattering`] know no night.
     ///
     /// # Errors
     /// As [`Sky::filtered_light`]; [`Error::Input`] for a sky that the model cannot make, or options that it does not know.
-    pub fn light_by(&self, options: &LightOptions, progress: &Progress) -> Result<Box<dyn SkyLight + Send>> {
+    pub fn light_by(&self, options: &LightOptions, progress: &Progress) -> Result<Layers> {
         options.validate()?;
-        match options.model {
-            Model::Scattering => {
-                Ok(Box::new(self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?))
-            }
-            Model::Preetham => Ok(Box::new(self.preetham()?)),
-            Model::Thesis => Ok(Box::new(self.thesis(ThesisOptions::default())?)),
-            Model::ThesisSingle => Ok(Box::new(self.thesis(ThesisOptions { secondary_rays: 0, ..Default::default() })?)),
-        }
+        let light: Box<dyn SkyLight + Send> = match options.model {
+            Model::Scattering => return self.scattered_light(options, progress),
+            Model::Preetham => Box::new(self.preetham()?),
+            Model::Thesis => Box::new(self.thesis(ThesisOptions::default())?),
+            Model::ThesisSingle => Box::new(self.thesis(ThesisOptions { secondary_rays: 0, ..Default::default() })?),
+        };
+        let mut layers = Layers::new(light.horizon_altitude());
+        layers.add(Layer::Sun, options.layers.of(Layer::Sun), Part { discs: light.discs(), ..Default::default() });
+        layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![light], ..Default::default() });
+        Ok(layers)
     }
 
     /// This sky by the estimator of the thesis.
@@ -201,8 +207,8 @@ mod tests {
         let thesis = sky.thesis(many).unwrap();
         let single = sky.thesis(ThesisOptions { secondary_rays: 0, ..many }).unwrap();
         for (altitude, azimuth) in [(80.0, 0.0), (40.0, 60.0), (25.0, 300.0)] {
-            let of = |light: &dyn SkyLight| seen(light, altitude, azimuth) / seen(&*solved, altitude, azimuth);
-            let (thesis, single, preetham) = (of(&thesis), of(&single), of(&*light(Model::Preetham)));
+            let of = |light: &dyn SkyLight| seen(light, altitude, azimuth) / seen(&solved, altitude, azimuth);
+            let (thesis, single, preetham) = (of(&thesis), of(&single), of(&light(Model::Preetham)));
             // Light scattered three times, by way of the ground and by way of haze is missing; Preetham's fit is known to be off by up to a factor of two at such low turbidity (Zotti et al. 2007).
             assert!((0.65..1.0).contains(&thesis) && single < thesis, "{altitude} {azimuth}: {thesis} {single}");
             assert!((0.4..3.0).contains(&preetham), "{altitude} {azimuth}: {preetham}");

@@ -1,13 +1,18 @@
 //! The sky over a place at a time.
 
+use super::SkyLight;
 use super::atmosphere::Atmosphere;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::dome::{Gathering, SkyDome};
+use super::eclipse::{self, EclipsedDome, eclipse};
 use super::filter::PolarisingFilter;
-use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal};
-use super::model::check_tolerance;
+use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, horizontal_irradiance};
+use super::layers::{Layer, Layers, Part};
+use super::model::{LightOptions, check_tolerance};
+use super::night::{NightOptions, moon, moonlight_weights};
 use crate::atmosphere::molecules;
-use crate::ephemeris::{Body, Place, Refraction, SunModel, horizontal_from_direction, sun, sun_at};
+use crate::celestial::SolarEclipse;
+use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SunModel, bodies, horizontal_from_direction, sun_at};
 use crate::error::{Error, Result, check_range};
 use crate::light::{Gathered, LightField, Observer, transverse};
 use crate::progress::Progress;
@@ -16,10 +21,14 @@ use crate::time::Time;
 use crate::units::{LUMINOUS_EFFICACY, Scale};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// Wavelength for which refraction is traced: near the peak of daylight vision [nm].
 const REFRACTION_NM: f64 = 550.0;
+
+/// Altitude of the Moon below which its light in the air is left out [degrees].
+const DARK_DEG: f64 = -18.0;
 
 /// The sky over an observer with the Sun at one position. Cheap to make: the light is solved by its [`Atmosphere`], once.
 ///
@@ -29,19 +38,36 @@ pub struct Sky {
     time: Option<Time>,
     elevation_m: f64,
     sun: Body,
+    /// Everything in the sky of a place and a time.
+    bodies: Option<Bodies>,
+    eclipse: Option<SolarEclipse>,
+    night: NightOptions,
     refraction: Refraction,
     atmosphere: Arc<Atmosphere>,
 }
 
 impl Sky {
-    /// The sky over `place` at `time`.
+    /// The sky over `place` at `time`, with Sun, Moon, planets and stars.
     ///
     /// # Errors
-    /// None at present; a later layer of the sky may need data that it lacks.
+    /// [`Error::Data`] if the geometry of an eclipse is out of its range, which no place on the Earth can see.
     pub fn new(place: Place, time: Time, sun_model: SunModel, atmosphere: Arc<Atmosphere>) -> Result<Self> {
         let refraction = refraction(&atmosphere, place.elevation_m);
-        let sun = sun(&place, &time, sun_model, &refraction);
-        Ok(Self { elevation_m: place.elevation_m, place: Some(place), time: Some(time), sun, refraction, atmosphere })
+        // The thesis's Moon has no parallax: it goes with the thesis's Sun only.
+        let moon_model = if sun_model == SunModel::Thesis { MoonModel::Thesis } else { MoonModel::Elp };
+        let bodies = bodies(&place, &time, sun_model, moon_model, &refraction);
+        let eclipse = eclipse(&bodies)?;
+        Ok(Self {
+            elevation_m: place.elevation_m,
+            place: Some(place),
+            time: Some(time),
+            sun: bodies.sun.clone(),
+            bodies: Some(bodies),
+            eclipse,
+            night: NightOptions::default(),
+            refraction,
+            atmosphere,
+        })
     }
 
     /// A sky with the Sun put at an airless altitude and an azimuth [degrees], at 1 au, for an observer at `elevation_m` [m].
@@ -52,7 +78,31 @@ impl Sky {
         check_range("elevation_m", elevation_m, -500.0, 60_000.0, "m")?;
         let refraction = refraction(&atmosphere, elevation_m);
         let sun = sun_at(altitude_deg, azimuth_deg, &refraction)?;
-        Ok(Self { place: None, time: None, elevation_m, sun, refraction, atmosphere })
+        Ok(Self {
+            place: None,
+            time: None,
+            elevation_m,
+            sun,
+            bodies: None,
+            eclipse: None,
+            night: NightOptions::default(),
+            refraction,
+            atmosphere,
+        })
+    }
+
+    /// The same sky with another night.
+    ///
+    /// # Errors
+    /// [`Error::Input`] as [`NightOptions::validate`].
+    pub fn with_night(self, night: NightOptions) -> Result<Self> {
+        night.validate()?;
+        Ok(Self { night, ..self })
+    }
+
+    /// What of the night is shown.
+    pub fn night(&self) -> &NightOptions {
+        &self.night
     }
 
     /// The place, if the sky has one.
@@ -75,9 +125,19 @@ impl Sky {
         &self.sun
     }
 
-    /// Everything that is placed in the sky, the Sun first.
+    /// Everything that is placed in the sky, the Sun first, then Moon and planets from the Sun outwards, above and below the horizon; of a Sun that was put, that Sun alone.
     pub fn bodies(&self) -> Vec<Body> {
-        vec![self.sun.clone()]
+        self.bodies.as_ref().map_or_else(|| vec![self.sun.clone()], |bodies| bodies.all().cloned().collect())
+    }
+
+    /// Moon, planets and the observer among them, if the sky has a place and a time.
+    pub fn bodies_of_place(&self) -> Option<&Bodies> {
+        self.bodies.as_ref()
+    }
+
+    /// How the Moon stands before the Sun, if it does.
+    pub fn solar_eclipse(&self) -> Option<&SolarEclipse> {
+        self.eclipse.as_ref()
     }
 
     /// The air.
@@ -94,10 +154,10 @@ impl Sky {
         self.atmosphere.check_wavelengths(wavelengths_nm)?;
         check_directions(directions)?;
         let field = self.field(progress)?;
-        let sunlight = self.sunlight(wavelengths_nm);
+        let sunlight = self.sunlight_in_the_air(wavelengths_nm);
         let rows = self.gather_each(field, directions, progress, |gathered, look| {
             let relative: Vec<f64> = (0..gathered.wavelengths).map(|w| field.radiance(gathered, 0, w, look.cosine)).collect();
-            self.at_wavelengths(&relative, wavelengths_nm, &sunlight)
+            self.at_wavelengths(&relative, wavelengths_nm, &sunlight).iter().map(|value| value * look.gain).collect::<Vec<_>>()
         })?;
         Ok(rows.concat())
     }
@@ -115,7 +175,7 @@ impl Sky {
             return Err(Error::input("polarisation", "false", "true, to know more of the light than its radiance"));
         }
         let field = self.field(progress)?;
-        let sunlight = self.sunlight(wavelengths_nm);
+        let sunlight = self.sunlight_in_the_air(wavelengths_nm);
         let nodes = &self.atmosphere.profile().wavelengths_nm;
         let rows: Vec<Vec<f64>> = self.gather_each(field, directions, progress, |gathered, look| {
             let stokes: Vec<[f64; 3]> =
@@ -125,7 +185,9 @@ impl Sky {
             let [q, u] = [1, 2].map(|k| {
                 CubicSpline::new(nodes, &stokes.iter().map(|s| if s[0] > 0.0 { s[k] / s[0] } else { 0.0 }).collect::<Vec<_>>())
             });
-            let at = |(&wavelength, i): (&f64, f64)| [i, i * q.value(wavelength), i * u.value(wavelength)];
+            let at = |(&wavelength, i): (&f64, f64)| {
+                [i, i * q.value(wavelength), i * u.value(wavelength)].map(|value| value * look.gain)
+            };
             wavelengths_nm.iter().zip(radiance).flat_map(at).collect()
         })?;
         Ok(rows.concat())
@@ -149,7 +211,11 @@ impl Sky {
                 let mu = direction.z.clamp(-1.0, 1.0);
                 // Counterclockwise from the Sun, against the compass.
                 let azimuth = (self.sun.azimuth_deg - horizontal_from_direction(direction).1).to_radians();
-                let look = Look { cosine: direction.dot(sun), transverse: transverse(mu, azimuth, observer.sun_zenith) };
+                let look = Look {
+                    cosine: direction.dot(sun),
+                    transverse: transverse(mu, azimuth, observer.sun_zenith),
+                    gain: eclipse::gain(self.eclipse.as_ref(), mu.asin()),
+                };
                 let value = result(&field.gather(&observer, mu, &[azimuth]), &look);
                 parts.finish_one()?;
                 Ok(value)
@@ -168,29 +234,40 @@ impl Sky {
         let transmittance = self.disc_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
         let diffuse = diffuse_horizontal(field, &self.observer(), progress)?;
+        let in_the_air = self.sunlight_in_the_air(wavelengths_nm);
         Ok(Irradiance {
             direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
             direct_normal,
-            diffuse_horizontal: self.at_wavelengths(&diffuse, wavelengths_nm, &sunlight),
+            diffuse_horizontal: self.at_wavelengths(&diffuse, wavelengths_nm, &in_the_air),
         })
     }
 
-    /// Illuminance by the Sun and by the sky.
+    /// Illuminance by the Sun, by the Moon and by the sky with all that shines in it.
     ///
     /// # Errors
     /// [`Error::Input`] if the wavelengths of the air make no colour; [`Error::Cancelled`].
     pub fn illuminance(&self, progress: &Progress) -> Result<Illuminance> {
-        let weights = self.xyz_weights()?;
+        let (weights, sky_weights) = (self.xyz_weights()?, self.sky_weights()?);
         let field = self.field(progress)?;
-        let luminous = |values: &[f64]| LUMINOUS_EFFICACY * values.iter().zip(&weights).map(|(v, w)| v * w[1]).sum::<f64>();
-        let direct_normal_lx = luminous(&self.disc_transmittance(field));
+        let luminous = |values: &[f64], weights: &[[f64; 3]]| {
+            LUMINOUS_EFFICACY * values.iter().zip(weights).map(|(v, w)| v * w[1]).sum::<f64>()
+        };
+        let direct_normal_lx = luminous(&self.disc_transmittance(field), &weights);
         let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
-        let diffuse_horizontal_lx = luminous(&diffuse_horizontal(field, &self.observer(), progress)?);
+        let by_sunlight = luminous(&diffuse_horizontal(field, &self.observer(), progress)?, &sky_weights);
+        let night = self.night_light(field, &LightOptions::default(), progress)?;
+        let moons = night.only(Layer::Moon).discs();
+        let moon_normal_lx = moons.iter().map(|disc| LUMINOUS_EFFICACY * disc.irradiance[1]).sum::<f64>();
+        let moon_horizontal_lx =
+            moons.iter().map(|disc| LUMINOUS_EFFICACY * disc.irradiance[1] * disc.direction.z.max(0.0)).sum::<f64>();
+        let diffuse_horizontal_lx = by_sunlight + LUMINOUS_EFFICACY * horizontal_irradiance(&night)[1];
         Ok(Illuminance {
             direct_normal_lx,
             direct_horizontal_lx,
+            moon_normal_lx,
+            moon_horizontal_lx,
             diffuse_horizontal_lx,
-            global_horizontal_lx: direct_horizontal_lx + diffuse_horizontal_lx,
+            global_horizontal_lx: direct_horizontal_lx + moon_horizontal_lx + diffuse_horizontal_lx,
         })
     }
 
@@ -230,21 +307,64 @@ impl Sky {
             }
         }
         tolerance.map(check_tolerance).transpose()?;
-        let weights = self.xyz_weights()?;
         let field = self.field(progress)?;
-        let (observer, horizon) = (self.observer(), self.horizon());
-        let discs = self.sun_disc(field, horizon)?;
+        let discs = self.sun_discs(field, self.horizon())?;
+        self.dome(field, &self.sun, self.sky_weights()?, (filter, tolerance), discs, progress)
+    }
+
+    /// The dome lit by `body` whose irradiance outside the air makes `weights`.
+    fn dome(
+        &self,
+        field: &LightField,
+        body: &Body,
+        weights: Vec<[f64; 3]>,
+        (filter, tolerance): (Option<&PolarisingFilter>, Option<f64>),
+        discs: Vec<Disc>,
+        progress: &Progress,
+    ) -> Result<SkyDome> {
         let what = Gathering {
             field,
             numbers: &self.atmosphere.quality().numbers(),
             filter: filter.copied(),
             tolerance,
             weights,
-            observer,
-            horizon,
-            sun: (self.sun.altitude_deg.to_radians(), self.sun.azimuth_deg.to_radians()),
+            observer: self.observer_under(body),
+            horizon: self.horizon(),
+            sun: (body.altitude_deg.to_radians(), body.azimuth_deg.to_radians()),
         };
         SkyDome::gather(&what, discs, progress)
+    }
+
+    /// All light around the observer, in layers, by the solved light transport.
+    pub(super) fn scattered_light(&self, options: &LightOptions, progress: &Progress) -> Result<Layers> {
+        let field = self.field(progress)?;
+        let mut layers = self.night_light(field, options, progress)?;
+        let scale = |layer: Layer| options.layers.of(layer);
+        let dome = self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?;
+        layers.add(Layer::Sun, scale(Layer::Sun), Part { discs: dome.discs(), ..Default::default() });
+        let smooth: Box<dyn SkyLight + Send> = match self.eclipse {
+            Some(eclipse) => Box::new(EclipsedDome { dome, eclipse }),
+            None => Box::new(dome),
+        };
+        layers.add(Layer::Sky, scale(Layer::Sky), Part { smooth: vec![smooth], ..Default::default() });
+        Ok(layers)
+    }
+
+    /// The lights of the night and moonlight in the air, in layers.
+    fn night_light(&self, field: &LightField, options: &LightOptions, progress: &Progress) -> Result<Layers> {
+        let mut layers = Layers::new(self.horizon());
+        self.add_night(field, &self.night, &options.layers, &mut layers, progress)?;
+        if let Some(bodies) = &self.bodies
+            && self.is_night(&self.night)
+            && bodies.moon.body.altitude_deg > DARK_DEG
+            && options.layers.of(Layer::Sky) > 0.0
+        {
+            let weights = moonlight_weights(&moon(bodies)?, &self.atmosphere.profile().wavelengths_nm);
+            let through = (options.polarising_filter.as_ref(), options.tolerance);
+            let dome = self.dome(field, &bodies.moon.body, weights, through, Vec::new(), progress)?;
+            layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
+        }
+        Ok(layers)
     }
 
     fn field(&self, progress: &Progress) -> Result<&LightField> {
@@ -252,16 +372,30 @@ impl Sky {
     }
 
     fn observer(&self) -> Observer {
-        Observer { altitude_km: self.altitude_km(), sun_zenith: (90.0 - self.sun.altitude_deg).to_radians() }
+        self.observer_under(&self.sun)
+    }
+
+    fn observer_under(&self, body: &Body) -> Observer {
+        Observer { altitude_km: self.altitude_km(), sun_zenith: (90.0 - body.altitude_deg).to_radians() }
     }
 
     /// Depressions below sea level lie on the ground of the model.
-    fn altitude_km(&self) -> f64 {
+    pub(super) fn altitude_km(&self) -> f64 {
         (self.elevation_m / 1000.0).max(0.0)
     }
 
+    /// What refraction does.
+    pub(super) fn refraction(&self) -> &Refraction {
+        &self.refraction
+    }
+
+    /// Transmittance of the air towards a body at an apparent altitude [radians], by wavelength, as a mean over a disc of the Sun's size.
+    pub(super) fn transmittance_towards(&self, field: &LightField, altitude: f64) -> Vec<f64> {
+        field.sun_transmittance(&Observer { altitude_km: self.altitude_km(), sun_zenith: FRAC_PI_2 - altitude })
+    }
+
     /// Geometric altitude of the horizon [radians].
-    fn horizon(&self) -> f64 {
+    pub(super) fn horizon(&self) -> f64 {
         let radius = self.atmosphere.profile().planet_radius_km;
         -(radius / (radius + self.altitude_km())).acos()
     }
@@ -274,6 +408,27 @@ impl Sky {
     fn xyz_weights(&self) -> Result<Vec<[f64; 3]>> {
         let nearness = self.nearness();
         Ok(self.atmosphere.xyz_weights()?.into_iter().map(|xyz| xyz.map(|w| w * nearness)).collect())
+    }
+
+    /// The same for what lights the sky: less during an eclipse.
+    fn sky_weights(&self) -> Result<Vec<[f64; 3]>> {
+        let share = |(xyz, uncovered): ([f64; 3], f64)| xyz.map(|w| w * eclipse::sky_share(uncovered));
+        Ok(self.xyz_weights()?.into_iter().zip(self.uncovered()).map(share).collect())
+    }
+
+    /// Part of the Sun's light that the Moon does not cover, at the solved wavelengths.
+    fn uncovered(&self) -> Vec<f64> {
+        self.uncovered_at(&self.atmosphere.profile().wavelengths_nm)
+    }
+
+    fn uncovered_at(&self, wavelengths_nm: &[f64]) -> Vec<f64> {
+        self.eclipse.as_ref().map_or_else(|| vec![1.0; wavelengths_nm.len()], |eclipse| eclipse.visible_fractions(wavelengths_nm))
+    }
+
+    /// Solar irradiance outside the air that lights the sky: less during an eclipse [W m-2 nm-1].
+    fn sunlight_in_the_air(&self, wavelengths_nm: &[f64]) -> Vec<f64> {
+        let shares = self.uncovered_at(wavelengths_nm).into_iter().map(eclipse::sky_share);
+        self.sunlight(wavelengths_nm).into_iter().zip(shares).map(|(sunlight, share)| sunlight * share).collect()
     }
 
     /// Solar irradiance outside the air [W m-2 nm-1].
@@ -302,8 +457,8 @@ impl Sky {
 
     /// Transmittance to the disc where it is seen.
     fn disc_transmittance(&self, field: &LightField) -> Vec<f64> {
-        let observer = Observer { sun_zenith: (90.0 - self.sun.apparent_altitude_deg).to_radians(), ..self.observer() };
-        field.sun_transmittance(&observer)
+        let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
+        transmittance.iter().zip(self.uncovered()).map(|(transmittance, uncovered)| transmittance * uncovered).collect()
     }
 
     /// Cosine of incidence of the disc on the horizontal plane.
@@ -312,28 +467,43 @@ impl Sky {
     }
 
     fn sun_irradiance_xyz(&self, field: &LightField) -> Result<[f64; 3]> {
-        let mut xyz = [0.0; 3];
-        for (transmittance, weight) in self.disc_transmittance(field).iter().zip(self.xyz_weights()?) {
-            for k in 0..3 {
-                xyz[k] += transmittance * weight[k];
-            }
-        }
-        Ok(xyz)
+        Ok(sum_of_products(&self.disc_transmittance(field), &self.xyz_weights()?))
     }
 
-    fn sun_disc(&self, field: &LightField, horizon: f64) -> Result<Vec<Disc>> {
+    /// The same without an eclipse.
+    fn whole_sun_irradiance_xyz(&self, field: &LightField) -> Result<[f64; 3]> {
+        let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
+        Ok(sum_of_products(&transmittance, &self.xyz_weights()?))
+    }
+
+    fn sun_discs(&self, field: &LightField, horizon: f64) -> Result<Vec<Disc>> {
         let horizontal_radius = (self.atmosphere.profile().sun_angular_radius_deg / self.sun.distance_au).to_radians();
         let flattening = self.refraction.flattening(self.sun.altitude_deg, 2.0 * horizontal_radius.to_degrees());
         let vertical_radius = horizontal_radius * flattening;
         let irradiance = self.sun_irradiance_xyz(field)?;
+        let whole = self.whole_sun_irradiance_xyz(field)?;
         let hidden = self.sun.apparent_altitude_deg.to_radians() + vertical_radius <= horizon;
-        if hidden || irradiance[1] <= 0.0 || horizontal_radius <= 0.0 {
+        if hidden || whole[1] <= 0.0 || horizontal_radius <= 0.0 {
             return Ok(Vec::new());
         }
         let direction = self.sun.apparent_direction();
         let surface = Surface::LimbDarkened(SOLAR_LIMB_DARKENING);
-        Ok(vec![Disc { is_sun: true, direction, horizontal_radius, vertical_radius, irradiance, surface }])
+        let disc = Disc { is_sun: true, direction, horizontal_radius, vertical_radius, irradiance, surface };
+        Ok(match self.eclipse {
+            None => vec![disc],
+            Some(eclipse) => eclipse::discs(eclipse, &Disc { irradiance: whole, ..disc }, irradiance),
+        })
     }
+}
+
+fn sum_of_products(values: &[f64], weights: &[[f64; 3]]) -> [f64; 3] {
+    let mut xyz = [0.0; 3];
+    for (value, weight) in values.iter().zip(weights) {
+        for k in 0..3 {
+            xyz[k] += value * weight[k];
+        }
+    }
+    xyz
 }
 
 fn check_directions(directions: &[DVec3]) -> Result<()> {
@@ -352,6 +522,8 @@ struct Look {
     cosine: f64,
     /// Components of the direction to the Sun across the look direction.
     transverse: [f64; 2],
+    /// Factor on the sky's light during an eclipse of the Sun.
+    gain: f64,
 }
 
 /// Refraction in the air of a preset; a profile says nothing of refraction, so its air has none.
@@ -368,205 +540,4 @@ fn refraction(atmosphere: &Atmosphere, elevation_m: f64) -> Refraction {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::atmosphere::AirParameters;
-    use crate::quality::Quality;
-    use crate::sky::SkyLight;
-
-    fn sky(atmosphere: &Arc<Atmosphere>, altitude_deg: f64, elevation_m: f64) -> Sky {
-        Sky::with_sun(altitude_deg, 200.0, elevation_m, Arc::clone(atmosphere)).unwrap()
-    }
-
-    /// XYZ by one gather in just this direction.
-    fn directly(sky: &Sky, altitude: f64, azimuth: f64) -> [f64; 3] {
-        let field = sky.field(&Progress::silent()).unwrap();
-        let from_sun = azimuth - sky.sun.azimuth_deg.to_radians();
-        let gathered = field.gather(&sky.observer(), altitude.sin(), &[from_sun]);
-        let sun = sky.sun.altitude_deg.to_radians();
-        let cosine = altitude.sin() * sun.sin() + altitude.cos() * sun.cos() * from_sun.cos();
-        let mut xyz = [0.0; 3];
-        for (w, weight) in sky.xyz_weights().unwrap().iter().enumerate() {
-            let value = field.radiance(&gathered, 0, w, cosine);
-            for k in 0..3 {
-                xyz[k] += value * weight[k];
-            }
-        }
-        xyz
-    }
-
-    /// Rms and largest relative error of Y of `dome` against gathers in just those directions, and where the largest is.
-    fn errors(sky: &Sky, dome: &SkyDome) -> (f64, (f64, f64, f64)) {
-        let mut squares = 0.0;
-        let mut worst = (0.0_f64, 0.0, 0.0);
-        let n = 300;
-        for i in 0..n {
-            // Spiral over the whole sphere.
-            let altitude = (1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(n)).asin();
-            let azimuth = 2.399_963 * f64::from(i) % std::f64::consts::TAU;
-            let mut seen = [[0.0; 3]];
-            dome.radiance_circle(altitude, &[azimuth], &mut seen);
-            let expected = directly(sky, altitude, azimuth);
-            let error = f64::from(seen[0][1]) / expected[1] - 1.0;
-            squares += error * error;
-            if error.abs() > worst.0.abs() {
-                worst = (error, altitude.to_degrees(), azimuth.to_degrees());
-            }
-        }
-        ((squares / f64::from(n)).sqrt(), worst)
-    }
-
-    const SUNS_AND_HEIGHTS: [(f64, f64); 6] = [(60.0, 0.0), (20.0, 0.0), (3.0, 0.0), (-2.0, 0.0), (-6.0, 0.0), (30.0, 10_000.0)];
-
-    #[test]
-    fn the_dome_is_what_is_gathered_in_each_direction() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
-        for (sun, elevation) in SUNS_AND_HEIGHTS {
-            let sky = sky(&atmosphere, sun, elevation);
-            let (rms, worst) = errors(&sky, &sky.light(&Progress::silent()).unwrap());
-            println!(
-                "Sun {sun}, {elevation} m: rms {:.3} %, worst {:+.2} % at {:.1} {:.1}",
-                100.0 * rms,
-                100.0 * worst.0,
-                worst.1,
-                worst.2
-            );
-            assert!(rms < 0.01 && worst.0.abs() < 0.05, "Sun at {sun}: rms {rms}, worst {worst:?}");
-        }
-    }
-
-    #[test]
-    fn a_tolerance_holds_and_a_looser_one_costs_less() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
-        for (sun, elevation) in SUNS_AND_HEIGHTS {
-            let sky = sky(&atmosphere, sun, elevation);
-            let mut costs = Vec::new();
-            let mut found = Vec::new();
-            for tolerance in [0.2, 0.05, 0.01, 0.001] {
-                let dome = sky.filtered_light(None, Some(tolerance), &Progress::silent()).unwrap();
-                let (rms, worst) = errors(&sky, &dome);
-                costs.push(dome.sample_directions().len());
-                found.push(rms);
-                println!(
-                    "Sun {sun}, {elevation} m, tolerance {tolerance}: {} samples, rms {:.4} %, worst {:+.3} % at {:.1} {:.1}",
-                    costs[costs.len() - 1],
-                    100.0 * rms,
-                    100.0 * worst.0,
-                    worst.1,
-                    worst.2
-                );
-                assert!(rms < 2.0 * tolerance, "Sun at {sun}: rms {rms}, worst {worst:?}");
-            }
-            assert!(costs.is_sorted() && costs[0] < costs[3], "{costs:?}");
-            assert!(found[3] < 0.6 * found[0], "{found:?}");
-        }
-        let low = sky(&atmosphere, 10.0, 0.0);
-        let refused = low.filtered_light(None, Some(0.0), &Progress::silent()).err().unwrap().to_string();
-        assert!(refused.starts_with("tolerance = 0: must be a number from 0.0001 to 0.5"), "{refused}");
-    }
-
-    /// Through a filter the light is I + strength (Q cos 2c + U sin 2c) of the Stokes parameters, at every side of the Sun.
-    #[test]
-    fn a_tolerance_holds_through_a_filter_too() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
-        let sky = sky(&atmosphere, 25.0, 0.0);
-        let filter = PolarisingFilter { strength: 0.9, angle_deg: 35.0, held_towards_deg: Some([30.0, 100.0]) };
-        let dome = sky.filtered_light(Some(&filter), Some(0.01), &Progress::silent()).unwrap();
-        let weights = sky.xyz_weights().unwrap();
-        let field = sky.field(&Progress::silent()).unwrap();
-        let mut squares = 0.0;
-        let n = 150;
-        for i in 0..n {
-            let altitude = (1.0 - (f64::from(i) + 0.5) / f64::from(n)).asin();
-            let azimuth = 2.399_963 * f64::from(i) % std::f64::consts::TAU;
-            let direction = DVec3::new(altitude.cos() * azimuth.sin(), altitude.cos() * azimuth.cos(), altitude.sin());
-            let [q, u] = filter.weights(altitude, azimuth);
-            let rows = sky
-                .gather_each(field, &[direction], &Progress::silent(), |gathered, look| {
-                    let through = |w: usize| {
-                        let stokes = field.stokes(gathered, 0, w, look.transverse, look.cosine);
-                        (stokes[0] + q * stokes[1] + u * stokes[2]) * weights[w][1]
-                    };
-                    (0..gathered.wavelengths).map(through).sum::<f64>()
-                })
-                .unwrap();
-            let mut seen = [[0.0; 3]];
-            dome.radiance_circle(altitude, &[azimuth], &mut seen);
-            squares += (f64::from(seen[0][1]) / rows[0] - 1.0).powi(2);
-        }
-        let rms = (squares / f64::from(n)).sqrt();
-        println!("through a filter: {} samples, rms {:.4} %", dome.sample_directions().len(), 100.0 * rms);
-        assert!(rms < 0.01, "{rms}");
-    }
-
-    /// North turns the finished picture where it is shown (a mapping, a transform): it is no part of a probe and cannot cause a solve either.
-    #[test]
-    fn a_new_time_place_height_or_sun_needs_no_new_solve() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
-        assert!(!atmosphere.is_solved());
-        let stages = std::sync::Mutex::new(Vec::new());
-        let listen = |stage: &str, _: f64| {
-            stages.lock().unwrap().push(stage.to_string());
-            true
-        };
-        let progress = Progress::new(&listen);
-        sky(&atmosphere, 30.0, 0.0).light(&progress).unwrap();
-        assert!(stages.lock().unwrap().iter().any(|stage| stage == "solve"));
-        stages.lock().unwrap().clear();
-        sky(&atmosphere, -3.0, 2500.0).light(&progress).unwrap();
-        for (latitude, longitude, elevation, text, model) in [
-            (55.7, 13.2, 0.0, "2005-06-21T11:00Z", SunModel::Iau),
-            (55.7, 13.2, 0.0, "2005-06-21T20:30Z", SunModel::Iau),
-            (-33.9, 151.2, 0.0, "2005-06-21T20:30Z", SunModel::Iau),
-            (-33.9, 151.2, 8000.0, "2005-06-21T20:30Z", SunModel::Iau),
-            (-33.9, 151.2, 8000.0, "2005-06-21T20:30Z", SunModel::Thesis),
-        ] {
-            let place = Place::new(latitude, longitude, elevation).unwrap();
-            let time = Time::parse(text, crate::time::ZoneChoice::Named("UTC")).unwrap();
-            let sky = Sky::new(place, time, model, Arc::clone(&atmosphere)).unwrap();
-            sky.filtered_light(Some(&PolarisingFilter::default()), Some(0.1), &progress).unwrap();
-            sky.illuminance(&progress).unwrap();
-        }
-        let stages = stages.lock().unwrap();
-        assert!(!stages.is_empty() && stages.iter().all(|stage| stage == "gather"), "{stages:?}");
-    }
-
-    #[test]
-    fn cancelling_leaves_the_air_unsolved_and_usable() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
-        let stop = |_: &str, fraction: f64| fraction < 0.2;
-        assert!(matches!(atmosphere.solve(&Progress::new(&stop)), Err(Error::Cancelled)));
-        assert!(!atmosphere.is_solved());
-        assert!(atmosphere.solve(&Progress::silent()).is_ok());
-    }
-
-    /// Without air there is only the Sun: its illuminance is that of the solar spectrum.
-    #[test]
-    fn outside_the_air_the_sun_has_its_whole_illuminance() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
-        let high = sky(&atmosphere, 60.0, 60_000.0).illuminance(&Progress::silent()).unwrap();
-        // checked against: Darula, Kittler & Gueymard 2005, luminous solar constant 133.334 klx; ozone below 60 km and 380-740 nm take part of a per cent.
-        assert!((high.direct_normal_lx / 133_334.0 - 1.0).abs() < 0.005, "{high:?}");
-        assert!(high.diffuse_horizontal_lx < 100.0, "{high:?}");
-    }
-
-    #[test]
-    fn the_air_refracts_as_the_standard_atmosphere() {
-        let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
-        // checked against: an independent ray trace (Auer-Standish integral) of the US Standard Atmosphere 1976, 550 nm, sea level:
-        // refraction in arc minutes by apparent altitude in degrees.
-        for (apparent_deg, minutes) in [
-            (0.0, 33.009),
-            (0.5, 27.652),
-            (1.0, 23.543),
-            (2.0, 17.785),
-            (5.0, 9.664),
-            (10.0, 5.222),
-            (20.0, 2.598),
-            (45.0, 0.953),
-        ] {
-            let seen = sky(&atmosphere, apparent_deg - minutes / 60.0, 0.0).sun.apparent_altitude_deg;
-            assert!((seen - apparent_deg).abs() < 0.005 * minutes / 60.0, "{apparent_deg}: {seen}");
-        }
-    }
-}
+mod tests;

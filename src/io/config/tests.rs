@@ -2,6 +2,7 @@ use super::*;
 use crate::atmosphere::{AerosolType, Ground, Preset, Surface};
 use crate::io::Half;
 use crate::probe::{Extent, GroundView, Projection, Rows};
+use crate::sky::LayerScales;
 use crate::spectrum::{ColorSpace, Gamut};
 use crate::units::Scale;
 use proptest::prelude::*;
@@ -141,6 +142,7 @@ fn any_light() -> impl Strategy<Value = LightOptions> {
         model: Model::Scattering,
         polarising_filter,
         tolerance,
+        layers: LayerScales::default(),
     })
 }
 

@@ -1,0 +1,143 @@
+//! The Sun behind the Moon: what is left of its disc and of the sky's light, and the corona.
+//!
+//! The light field is solved for parallel sunlight that is the same everywhere; under the Moon's shadow it is not. The honest approximation: the sky is that of the whole Sun, dimmed at each wavelength by
+//! the uncovered, limb-darkened part of the disc as seen from the observer, and towards totality light that comes in from outside the umbra is left, more at the horizon
+//! ([`crate::celestial::solar_eclipse::remaining_sky_light`]).
+
+use super::SkyLight;
+use super::disc::{Disc, Surface, SurfaceMap};
+use super::dome::SkyDome;
+use crate::celestial::{Corona, SolarEclipse, solar_eclipse::remaining_sky_light};
+use crate::ephemeris::Bodies;
+use crate::error::Result;
+use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+/// Wavelength for the Sun's light as a whole [nm].
+const MIDDLE_NM: f64 = 550.0;
+
+/// Wavelengths and weights of the limb darkening of X, Y and Z [nm].
+const COLOURS: [[(f64, f64); 2]; 3] = [[(600.0, 0.8), (450.0, 0.2)], [(550.0, 1.0), (550.0, 0.0)], [(450.0, 1.0), (450.0, 0.0)]];
+
+/// Uncovered part of the Sun's light below which the corona is drawn; with more, the sky outshines it.
+const CORONA_BELOW: f64 = 1e-3;
+
+/// How the Moon stands before the Sun, if it covers any of it.
+pub(super) fn eclipse(bodies: &Bodies) -> Result<Option<SolarEclipse>> {
+    let (sun, moon) = (&bodies.sun, &bodies.moon.body);
+    let radius = |diameter: f64| 0.5 * diameter;
+    let eclipse = SolarEclipse::new(
+        sun.direction(),
+        radius(sun.angular_diameter_deg),
+        moon.direction(),
+        radius(moon.angular_diameter_deg),
+    )?;
+    Ok(eclipse.is_eclipse().then_some(eclipse))
+}
+
+/// Share of the sky's light that is left in the zenith when the part `uncovered` of the Sun's is.
+pub(super) fn sky_share(uncovered: f64) -> f64 {
+    remaining_sky_light(uncovered, FRAC_PI_2)
+}
+
+/// Light of the sky at `altitude` [radians] over what [`sky_share`] says.
+pub(super) fn gain(eclipse: Option<&SolarEclipse>, altitude: f64) -> f64 {
+    let Some(eclipse) = eclipse else { return 1.0 };
+    let uncovered = eclipse.visible_fraction(MIDDLE_NM);
+    remaining_sky_light(uncovered, altitude) / remaining_sky_light(uncovered, FRAC_PI_2)
+}
+
+/// A dome under the Moon's shadow.
+pub(super) struct EclipsedDome {
+    pub dome: SkyDome,
+    pub eclipse: SolarEclipse,
+}
+
+impl SkyLight for EclipsedDome {
+    fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
+        self.dome.radiance_circle(altitude, azimuths, out);
+        let gain = gain(Some(&self.eclipse), altitude) as f32;
+        out.as_flattened_mut().iter_mut().for_each(|value| *value *= gain);
+    }
+
+    fn horizon_altitude(&self) -> f64 {
+        self.dome.horizon_altitude()
+    }
+
+    fn discs(&self) -> Vec<Disc> {
+        self.dome.discs()
+    }
+}
+
+/// Axes of a disc around the Sun.
+#[derive(Clone, Copy, Debug)]
+struct Axes {
+    right: DVec3,
+    up: DVec3,
+    radius: f64,
+}
+
+impl Axes {
+    fn new(eclipse: &SolarEclipse, radius: f64) -> Self {
+        let right = eclipse.sun_direction().cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
+        Self { right, up: right.cross(eclipse.sun_direction()), radius }
+    }
+
+    fn direction(&self, eclipse: &SolarEclipse, right: f64, up: f64) -> DVec3 {
+        let across = self.radius * (1.0 - 1e-9) * (right * self.right + up * self.up);
+        (eclipse.sun_direction() * (1.0 - across.length_squared()).max(0.0).sqrt() + across).normalize()
+    }
+}
+
+#[derive(Debug)]
+struct Crescent {
+    eclipse: SolarEclipse,
+    axes: Axes,
+}
+
+impl SurfaceMap for Crescent {
+    fn brightness(&self, right: f64, up: f64) -> [f64; 3] {
+        let direction = self.axes.direction(&self.eclipse, right, up);
+        let at = |parts: [(f64, f64); 2]| {
+            parts.iter().map(|&(wavelength, weight)| weight * self.eclipse.relative_radiance(direction, wavelength)).sum()
+        };
+        COLOURS.map(at)
+    }
+}
+
+#[derive(Debug)]
+struct CoronaMap {
+    eclipse: SolarEclipse,
+    corona: Corona,
+    axes: Axes,
+}
+
+impl SurfaceMap for CoronaMap {
+    fn brightness(&self, right: f64, up: f64) -> [f64; 3] {
+        [self.corona.at(self.axes.direction(&self.eclipse, right, up)); 3]
+    }
+}
+
+/// What is seen of the Sun whose whole disc would be `whole`, of which `covered` has the irradiance that is left: the crescent, and towards totality the corona.
+pub(super) fn discs(eclipse: SolarEclipse, whole: &Disc, left: [f64; 3]) -> Vec<Disc> {
+    let mut discs = Vec::new();
+    if left[1] > 0.0 {
+        let axes = Axes::new(&eclipse, eclipse.sun_radius());
+        discs.push(Disc { irradiance: left, surface: Surface::Mapped(Arc::new(Crescent { eclipse, axes })), ..whole.clone() });
+    }
+    if eclipse.visible_fraction(MIDDLE_NM) < CORONA_BELOW {
+        let corona = Corona::new(eclipse);
+        let reach = corona.angular_radius();
+        let axes = Axes::new(&eclipse, reach);
+        let ratio = corona.irradiance_ratio();
+        discs.push(Disc {
+            horizontal_radius: reach,
+            vertical_radius: reach * whole.vertical_radius / whole.horizontal_radius,
+            irradiance: whole.irradiance.map(|value| value * ratio),
+            surface: Surface::Mapped(Arc::new(CoronaMap { eclipse, corona, axes })),
+            ..whole.clone()
+        });
+    }
+    discs
+}

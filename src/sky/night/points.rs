@@ -1,0 +1,114 @@
+//! Stars and planets as points of light behind the air.
+
+use super::super::Sky;
+use super::super::disc::Point;
+use crate::celestial::{StarSpectra, planet_irradiance, stars_to};
+use crate::ephemeris::{Bodies, StarFrame, direction_from_horizontal, horizontal_from_direction};
+use crate::error::Result;
+use crate::light::LightField;
+use crate::spectrum::xyz_weights;
+use crate::time::JulianDate;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
+
+/// Altitudes at which the air's transmittance is known, evenly in the square root of the share of the way from the horizon to the zenith.
+const ALTITUDES: usize = 48;
+
+/// Transmittance of the air to points at any altitude, by wavelength.
+struct Extinction {
+    horizon: f64,
+    /// (altitude, wavelength).
+    rows: Vec<Vec<f64>>,
+}
+
+impl Extinction {
+    fn new(sky: &Sky, field: &LightField) -> Self {
+        let horizon = sky.horizon();
+        let at = |i: usize| {
+            let share = (i as f64 / (ALTITUDES - 1) as f64).powi(2);
+            sky.transmittance_towards(field, horizon + (FRAC_PI_2 - horizon) * share)
+        };
+        Self { horizon, rows: (0..ALTITUDES).map(at).collect() }
+    }
+
+    /// Node below an apparent altitude [radians], and the share of the next one.
+    fn locate(&self, altitude: f64) -> (usize, f64) {
+        let share = ((altitude - self.horizon) / (FRAC_PI_2 - self.horizon)).clamp(0.0, 1.0);
+        let position = share.sqrt() * (ALTITUDES - 1) as f64;
+        let node = (position as usize).min(ALTITUDES - 2);
+        (node, position - node as f64)
+    }
+
+    /// XYZ at each altitude of light of irradiance `spectrum`; `weights` make XYZ of spectral values.
+    fn colours(&self, spectrum: &[f64], weights: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let colour = |row: &Vec<f64>| {
+            let mut xyz = [0.0; 3];
+            for ((transmittance, value), weight) in row.iter().zip(spectrum).zip(weights) {
+                (0..3).for_each(|k| xyz[k] += transmittance * value * weight[k]);
+            }
+            xyz
+        };
+        self.rows.iter().map(colour).collect()
+    }
+
+    fn mix(&self, colours: &[[f64; 3]], altitude: f64) -> [f64; 3] {
+        let (node, share) = self.locate(altitude);
+        std::array::from_fn(|k| colours[node][k] + share * (colours[node + 1][k] - colours[node][k]))
+    }
+}
+
+impl Sky {
+    /// The planets above the horizon.
+    pub(super) fn planet_points(&self, field: &LightField, bodies: &Bodies) -> Result<Vec<Point>> {
+        let nodes = &self.atmosphere().profile().wavelengths_nm;
+        let weights = xyz_weights(nodes, |_| 1.0);
+        let horizon = self.horizon();
+        let points = bodies.planets.iter().filter_map(|state| {
+            let altitude = state.body.apparent_altitude_deg.to_radians();
+            let magnitude = state.body.magnitude.filter(|_| altitude > horizon)?;
+            let extinction = self.transmittance_towards(field, altitude);
+            let mut irradiance = [0.0; 3];
+            let spectrum = planet_irradiance(state.planet, magnitude, nodes);
+            for ((transmittance, value), weight) in extinction.iter().zip(&spectrum).zip(&weights) {
+                (0..3).for_each(|k| irradiance[k] += transmittance * value * weight[k]);
+            }
+            Some(Point { direction: state.body.apparent_direction(), irradiance })
+        });
+        Ok(points.collect())
+    }
+
+    /// The stars of magnitude V <= `limit` above the horizon.
+    pub(super) fn star_points(&self, field: &LightField, bodies: &Bodies, limit: f64) -> Result<Vec<Point>> {
+        let nodes = &self.atmosphere().profile().wavelengths_nm;
+        let weights = xyz_weights(nodes, |_| 1.0);
+        let spectra = StarSpectra::new(nodes);
+        let extinction = Extinction::new(self, field);
+        let colours: Vec<Vec<[f64; 3]>> =
+            (0..spectra.row_count()).into_par_iter().map(|row| extinction.colours(spectra.row(row), &weights)).collect();
+        let frame = StarFrame::new(&bodies.observer);
+        let years = (bodies.observer.tt() - JulianDate::from_days(2_451_545.0)) / 365.25;
+        let lowest = self.refraction().horizon_true_altitude_deg().to_radians().sin() - 1e-6;
+        let point = |star: &crate::celestial::Star| {
+            let airless = frame.direction_of(star.direction(years));
+            if airless.z < lowest {
+                return None;
+            }
+            let (direction, altitude) = self.refracted(airless);
+            if altitude < extinction.horizon {
+                return None;
+            }
+            let level = 10_f64.powf(-0.4 * star.v_magnitude);
+            let irradiance = extinction.mix(&colours[spectra.row_of(star.b_minus_v)], altitude).map(|value| value * level);
+            Some(Point { direction, irradiance })
+        };
+        Ok(stars_to(limit).par_iter().filter_map(point).collect())
+    }
+
+    /// Where a point is seen, and its apparent altitude [radians].
+    fn refracted(&self, airless: DVec3) -> (DVec3, f64) {
+        let (altitude_deg, azimuth_deg) = horizontal_from_direction(airless);
+        let apparent_deg = self.refraction().apparent_altitude_deg(altitude_deg);
+        (direction_from_horizontal(apparent_deg, azimuth_deg), apparent_deg.to_radians())
+    }
+}
