@@ -5,11 +5,16 @@
 //! ```
 //!
 //! Each option takes one number or several with commas between; all combinations are computed. Others: `--altitude` (observer, km), `--aod`, `--aerosol`, `--asymmetry`, `--quality`, `--seed`,
-//! `--polarised` (the path tracer then follows polarisation and prints Q/I and U/I too), `--plain` (paths without a guide), `--guided` (with it by day too), `--batches N` (repeats each
+//! `--only` (names of components to keep, such as `molecules,ozone`), `--albedo` (of the ground), `--sun-radius` (degrees; 0 is a point), `--polarised` (the path tracer then follows polarisation and prints Q/I and U/I too), `--plain` (paths without a guide), `--guided` (with it by day too), `--batches N` (repeats each
 //! estimate with N seeds and prints the scatter of the means over the standard error, which is 1 where the standard error tells the truth).
+//!
+//! Any number of the quality can be replaced: `--altitudes`, `--solar-zenith-angles`, `--iteration-altitudes`, `--iteration-solar-zenith-angles`, `--shells`, `--step` (km), `--rising`, `--limb`,
+//! `--ground` and `--azimuths` (directions of the last applications), `--order`, `--azimuthal-order`, `--applications`. With `--paths 2` only the solver and single scattering are worth reading.
+//!
+//! In pure air what is scattered once and the rest are compared apart too: columns `once` (quadrature against quadrature) and `rest` (with its standard error).
 
 use glam::DVec3;
-use skyprobe::atmosphere::AirParameters;
+use skyprobe::atmosphere::{AirParameters, Phase};
 use skyprobe::light::{Guiding, LightField, Observer, PathTracer};
 use skyprobe::progress::Progress;
 use skyprobe::quality::Quality;
@@ -42,12 +47,12 @@ impl Options {
     }
 }
 
-/// The solver's radiance for a solar irradiance of 1 \[sr-1\] at wavelength index `wavelength`.
-fn solved(field: &LightField, wavelength: usize, altitude_km: f64, sun_deg: f64, view: DVec3) -> f64 {
+/// The solver's radiance for a solar irradiance of 1 \[sr-1\] at wavelength index `wavelength`, and what of it is not single scattering.
+fn solved(field: &LightField, wavelength: usize, altitude_km: f64, sun_deg: f64, view: DVec3) -> [f64; 2] {
     let sun = sun_deg.to_radians();
     let gathered = field.gather(&Observer { altitude_km, sun_zenith: sun }, view.z, &[view.y.atan2(view.x)]);
     let cosine = view.z * sun.cos() + view.x * sun.sin();
-    field.radiance(&gathered, 0, wavelength, cosine)
+    [field.radiance(&gathered, 0, wavelength, cosine), f64::from(gathered.rest(0, 0)[wavelength])]
 }
 
 fn main() -> skyprobe::Result<()> {
@@ -60,8 +65,38 @@ fn main() -> skyprobe::Result<()> {
     let aerosol = options.0.get("aerosol").map(|name| name.parse()).transpose()?;
     let air = AirParameters { aerosol, aod550: given("aod"), asymmetry: given("asymmetry"), ..AirParameters::default() };
     let quality: Quality = options.0.get("quality").map_or("high", String::as_str).parse()?;
-    let profile = air.optical_profile(&wavelengths)?;
-    let field = LightField::solve(&profile, &quality.numbers(), options.has("polarised"), &Progress::silent())?;
+    let mut profile = air.optical_profile(&wavelengths)?;
+    if let Some(names) = options.0.get("only") {
+        profile.components.retain(|component| names.split(',').any(|name| name == component.name));
+    }
+    if let Some(albedo) = given("albedo") {
+        profile.ground_albedo.fill(albedo);
+    }
+    if let Some(radius) = given("sun-radius") {
+        profile.sun_angular_radius_deg = radius;
+    }
+    let mut numbers = quality.numbers();
+    let [rising, limb, ground] = &mut numbers.zenith_nodes;
+    for (name, number) in [
+        ("altitudes", &mut numbers.altitudes),
+        ("solar-zenith-angles", &mut numbers.solar_zenith_angles),
+        ("iteration-altitudes", &mut numbers.iteration_altitudes),
+        ("iteration-solar-zenith-angles", &mut numbers.iteration_solar_zenith_angles),
+        ("shells", &mut numbers.shells),
+        ("rising", rising),
+        ("limb", limb),
+        ("ground", ground),
+        ("azimuths", &mut numbers.azimuth_nodes[1]),
+        ("order", &mut numbers.order),
+        ("azimuthal-order", &mut numbers.azimuthal_order),
+        ("applications", &mut numbers.full_applications),
+    ] {
+        *number = given(name).map_or(*number, |value| value as usize);
+    }
+    numbers.step_km = given("step").unwrap_or(numbers.step_km);
+    let start = Instant::now();
+    let field = LightField::solve(&profile, &numbers, options.has("polarised"), &Progress::silent())?;
+    println!("solved in {:.2} s", start.elapsed().as_secs_f64());
     println!("   sun  view azimuth    nm   single/all  path tracer   +- %  largest %  seconds      solver      %  errors");
     for (index, wavelength) in wavelengths.iter().enumerate() {
         let guiding = match (options.has("plain"), options.has("guided")) {
@@ -88,7 +123,7 @@ fn main() -> skyprobe::Result<()> {
                     let error = (runs.iter().map(|run| run[0].standard_error.powi(2)).sum::<f64>()).sqrt() / n;
                     let largest = runs.iter().map(|run| run[0].largest_share).fold(0.0, f64::max);
                     let traced = mean(0);
-                    let solver = solved(&field, index, altitude, sun_zenith, view);
+                    let [solver, rest] = solved(&field, index, altitude, sun_zenith, view);
                     print!(
                         "{sun:6.1} {zenith:5.1} {azimuth:7.1} {wavelength:5.0} {:12.4} {traced:12.5e} {:6.2} {:10.2} {seconds:8.1} {solver:11.4e} {:+6.2} {:+7.2}",
                         single / traced,
@@ -100,6 +135,14 @@ fn main() -> skyprobe::Result<()> {
                     if batches > 1 {
                         let chi2: f64 = runs.iter().map(|run| ((run[0].mean - traced) / run[0].standard_error).powi(2)).sum();
                         print!("  scatter {:.2}", (chi2 / (n - 1.0)).sqrt());
+                    }
+                    if profile.components.iter().all(|c| c.phase.as_ref().is_none_or(|p| matches!(p, Phase::Rayleigh { .. }))) {
+                        let (once, multiple) = (100.0 * ((solver - rest) / single - 1.0), traced - single);
+                        print!(
+                            "  once {once:+.3} rest {rest:.5e} {:+.2} +- {:.2}",
+                            100.0 * (rest / multiple - 1.0),
+                            100.0 * error / multiple
+                        );
                     }
                     if options.has("polarised") {
                         print!("  Q/I {:+.4} U/I {:+.4}", mean(1) / traced, mean(2) / traced);

@@ -13,12 +13,17 @@ pub struct Grid {
     pub altitudes: Axis,
     /// Steps of rays end at these altitudes [km], and hold two points each.
     pub shells: Axis,
+    /// The same for light scattered once while the Sun is low, see [`FINER`].
+    pub fine_shells: Axis,
     /// Solar zenith angles, dense around the terminator.
     pub zeniths: ZenithAxis,
     /// Sine and cosine of the solar zenith angles.
     pub sun: Vec<(f64, f64)>,
     radius: f64,
 }
+
+/// How many times more shells, and shorter steps, a ray takes while the Sun is low: the edge of the planet's shadow lies across it then.
+pub const FINER: usize = 3;
 
 /// Part of the levels that follow the optical depth of the air rather than altitude: shallow layers, as of fog, get levels of their own.
 const BY_OPTICAL_DEPTH: f64 = 0.3;
@@ -121,7 +126,8 @@ impl Grid {
         let make = |altitudes: usize, solar_zenith_angles: usize| {
             let zeniths = ZenithAxis::new(solar_zenith_angles);
             let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
-            Self { altitudes: measure.spread(altitudes), shells: measure.spread(numbers.shells), zeniths, sun, radius }
+            let [shells, fine_shells] = [numbers.shells, FINER * numbers.shells].map(|count| measure.spread(count));
+            Self { altitudes: measure.spread(altitudes), shells, fine_shells, zeniths, sun, radius }
         };
         [
             make(numbers.altitudes, numbers.solar_zenith_angles),
