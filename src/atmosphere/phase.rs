@@ -58,54 +58,27 @@ impl Phase {
         Ok(())
     }
 
-    /// How many functions of the scattering angle alone span this phase function at all wavelengths; see [`Phase::basis`].
-    pub fn basis_len(&self) -> usize {
-        match self {
-            Self::Rayleigh { .. } => 2,
-            Self::HenyeyGreenstein { .. } | Self::CornetteShanks { .. } => 1,
-            Self::Tabulated(table) => table.wavelengths(),
-        }
-    }
-
-    /// Value of basis function `index` at a scattering angle with cosine `cosine`.
-    /// P(wavelength, cosine) = sum over index of `basis_weight(index, wavelength) * basis(index, cosine)`.
-    #[inline]
-    pub fn basis(&self, index: usize, cosine: f64) -> f64 {
-        match self {
-            Self::Rayleigh { .. } => {
-                if index == 0 {
-                    1.0
-                } else {
-                    cosine * cosine
-                }
-            }
-            Self::HenyeyGreenstein { asymmetry: g } => henyey_greenstein(*g, cosine),
-            Self::CornetteShanks { asymmetry: g } => {
-                1.5 / (2.0 + g * g) * (1.0 + cosine * cosine) * henyey_greenstein(*g, cosine)
-            }
-            Self::Tabulated(table) => table.value(index, cosine),
-        }
-    }
-
-    /// Weight of basis function `index` at the wavelength with index `wavelength`; see [`Phase::basis`].
-    pub fn basis_weight(&self, index: usize, wavelength: usize) -> f64 {
-        match self {
-            Self::Rayleigh { depolarisation } => {
-                let d = depolarisation[if depolarisation.len() == 1 { 0 } else { wavelength }];
-                let gamma = d / (2.0 - d);
-                let norm = 0.75 / (1.0 + 2.0 * gamma);
-                norm * if index == 0 { 1.0 + 3.0 * gamma } else { 1.0 - gamma }
-            }
-            Self::HenyeyGreenstein { .. } | Self::CornetteShanks { .. } => 1.0,
-            Self::Tabulated(table) => f64::from(table.wavelengths() == 1 || index == wavelength),
-        }
+    /// Weights of 1 and cos^2 in the phase function of molecules at the wavelength with index `wavelength`; `None` for any other phase function.
+    pub fn molecular_weights(&self, wavelength: usize) -> Option<[f64; 2]> {
+        let Self::Rayleigh { depolarisation } = self else { return None };
+        let d = depolarisation[if depolarisation.len() == 1 { 0 } else { wavelength }];
+        let gamma = d / (2.0 - d);
+        let norm = 0.75 / (1.0 + 2.0 * gamma);
+        Some([norm * (1.0 + 3.0 * gamma), norm * (1.0 - gamma)])
     }
 
     /// The phase function at wavelength index `wavelength` and scattering angle cosine `cosine`.
     pub fn value(&self, wavelength: usize, cosine: f64) -> f64 {
         match self {
+            Self::Rayleigh { .. } => {
+                let [constant, square] = self.molecular_weights(wavelength).unwrap_or_default();
+                constant + square * cosine * cosine
+            }
+            Self::HenyeyGreenstein { asymmetry: g } => henyey_greenstein(*g, cosine),
+            Self::CornetteShanks { asymmetry: g } => {
+                1.5 / (2.0 + g * g) * (1.0 + cosine * cosine) * henyey_greenstein(*g, cosine)
+            }
             Self::Tabulated(table) => table.value(wavelength, cosine),
-            _ => (0..self.basis_len()).map(|i| self.basis_weight(i, wavelength) * self.basis(i, cosine)).sum(),
         }
     }
 
@@ -115,7 +88,7 @@ impl Phase {
             Self::Rayleigh { .. } => match l {
                 0 => 1.0,
                 // From the cos^2 term: cos^2 = 1/3 + 2/3 P_2.
-                2 => self.basis_weight(1, wavelength) * 2.0 / 15.0,
+                2 => self.molecular_weights(wavelength).unwrap_or_default()[1] * 2.0 / 15.0,
                 _ => 0.0,
             },
             Self::HenyeyGreenstein { asymmetry: g } => g.powi(l as i32),

@@ -25,8 +25,6 @@ pub struct PhaseTable {
     wavelengths: usize,
     /// Logarithm of the phase function, row-major, shape (wavelengths, angles).
     ln_values: Vec<f64>,
-    /// Probability that light is scattered by less than each angle, same shape.
-    cumulative: Vec<f64>,
     /// First interval that reaches into each cell.
     first_interval: Vec<u32>,
     largest_deviation: f64,
@@ -73,30 +71,22 @@ impl PhaseTable {
     pub(super) fn from_logarithms(angles: Vec<f64>, ln_values: Vec<f64>) -> Self {
         let count = angles.len();
         let wavelengths = ln_values.len() / count;
-        let mut table = Self {
-            first_interval: first_intervals(&angles),
-            cumulative: vec![0.0; ln_values.len()],
-            angles,
-            wavelengths,
-            ln_values,
-            largest_deviation: 0.0,
-        };
+        let mut table = Self { first_interval: first_intervals(&angles), angles, wavelengths, ln_values, largest_deviation: 0.0 };
         let sines: Vec<(f64, f64)> = table.angles.iter().map(|angle| angle.sin_cos()).collect();
         for wavelength in 0..wavelengths {
             let row = wavelength * count..(wavelength + 1) * count;
-            let (ln_values, cumulative) = (&mut table.ln_values[row.clone()], &mut table.cumulative[row]);
+            let ln_values = &mut table.ln_values[row];
+            let mut whole = 0.0;
             for i in 1..count {
                 let slope = (ln_values[i] - ln_values[i - 1]) / (table.angles[i] - table.angles[i - 1]);
                 let antiderivative = |at: usize| ln_values[at].exp() * (slope * sines[at].0 - sines[at].1);
                 // Rounding must not make the smallest interval negative.
                 let part = ((antiderivative(i) - antiderivative(i - 1)) / (1.0 + slope * slope)).max(0.0);
-                cumulative[i] = cumulative[i - 1] + 0.5 * part;
+                whole += 0.5 * part;
             }
-            let whole = cumulative[count - 1];
             table.largest_deviation = table.largest_deviation.max((whole - 1.0).abs());
             let shift = whole.ln();
             ln_values.iter_mut().for_each(|value| *value -= shift);
-            cumulative.iter_mut().for_each(|value| *value /= whole);
         }
         table
     }
@@ -139,26 +129,6 @@ impl PhaseTable {
         }
         let (low, high) = (self.angles[interval], self.angles[interval + 1]);
         (interval, (angle - low) / (high - low))
-    }
-
-    /// A scattering angle cosine with density P / 2 at wavelength index `wavelength`, from `uniform` random numbers in [0, 1). Exact: the
-    /// interval by inversion, the place in it by rejection.
-    pub fn sample_cosine(&self, wavelength: usize, mut uniform: impl FnMut() -> f64) -> f64 {
-        let row = self.row(wavelength);
-        let (ln_values, cumulative) = (&self.ln_values[row.clone()], &self.cumulative[row]);
-        let u = uniform();
-        let interval = cumulative.partition_point(|&c| c <= u).clamp(1, cumulative.len() - 1) - 1;
-        let (low, high) = (self.angles[interval], self.angles[interval + 1]);
-        let (near, far) = (low.cos(), high.cos());
-        let (a, b) = (ln_values[interval], ln_values[interval + 1]);
-        let largest = a.max(b);
-        loop {
-            let cosine = near + (far - near) * uniform();
-            let fraction = (cosine.acos() - low) / (high - low);
-            if uniform().ln() <= a + fraction * (b - a) - largest {
-                return cosine;
-            }
-        }
     }
 
     /// Legendre moment of order `l`: 1/2 of the integral of P P_l over the cosine. For more than one, [`Self::legendre_moments`] is faster.
@@ -313,27 +283,6 @@ mod tests {
                 let (interval, fraction) = flat.locate(angle);
                 assert!((interval as f64 + fraction - i as f64).abs() < 1e-9);
             }
-        }
-    }
-
-    #[test]
-    fn drawn_cosines_have_the_moments_of_the_table() {
-        let table = table(40);
-        let mut state = 1u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
-        for wavelength in 0..2 {
-            let n = 200_000;
-            let (mut first, mut second) = (0.0, 0.0);
-            for _ in 0..n {
-                let x = table.sample_cosine(wavelength, &mut uniform);
-                first += x / f64::from(n);
-                second += (1.5 * x * x - 0.5) / f64::from(n);
-            }
-            assert!((first - table.legendre_moment(1, wavelength)).abs() < 0.006, "{first}");
-            assert!((second - table.legendre_moment(2, wavelength)).abs() < 0.008, "{second}");
         }
     }
 

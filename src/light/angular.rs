@@ -77,8 +77,8 @@ pub struct Once {
 impl AngularFunctions {
     /// For `phase` at a number of wavelengths, beside a field that holds orders up to `order`, and a Sun of angular radius `sun_radius` [radians].
     pub fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
-        if let Phase::Rayleigh { .. } = phase {
-            return Self::Molecules((0..wavelengths).map(|w| [phase.basis_weight(0, w), phase.basis_weight(1, w)]).collect());
+        if let Some(weights) = (0..wavelengths).map(|w| phase.molecular_weights(w)).collect() {
+            return Self::Molecules(weights);
         }
         Self::Table(Table::new(phase, wavelengths, order, sun_radius))
     }

@@ -48,11 +48,8 @@ impl<'a> Medium<'a> {
                 extinction[i] += absorption + scattering[i];
             }
             if let Some(phase) = &component.phase {
-                let dipole = match phase {
-                    // The weight of cos^2, which is 3/4 for a dipole.
-                    Phase::Rayleigh { .. } => Some(phase.basis_weight(1, wavelength) / 0.75),
-                    _ => None,
-                };
+                // The weight of cos^2, which is 3/4 for a dipole.
+                let dipole = phase.molecular_weights(wavelength).map(|[_, square]| square / 0.75);
                 scatterers.push(Scatterer { phase, scattering, angles: Angles::new(phase, wavelength), dipole });
             }
         }
