@@ -23,6 +23,7 @@ use super::air::forward_share;
 use super::axis::Axis;
 use crate::atmosphere::Phase;
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
 
 /// Entries of the tables of functions, equidistant in sqrt(sin(angle / 2)).
 const ENTRIES: usize = 1025;
@@ -194,6 +195,7 @@ impl Table {
                 for (l, chi) in moments.iter().enumerate().take(order + 1) {
                     add_series(&mut rest, l, (chi - share) / (1.0 - share));
                 }
+                let (missing, beyond) = (missing(moments.len()), beyond(moments.len()));
                 let peak_after = |path: f64| {
                     // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
                     let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
@@ -202,7 +204,10 @@ impl Table {
                         let repeated = if path > 0.0 { (path * chi).exp_m1() / path } else { chi };
                         let added = repeated * disc[l] - chi;
                         if added != 0.0 {
-                            add_series(&mut peak, l, added);
+                            let (value, missing) = ((2 * l + 1) as f64 * added, missing.get(l).copied().unwrap_or(1.0));
+                            for ((sum, p), beyond) in peak.iter_mut().zip(&legendre[l]).zip(&beyond) {
+                                *sum += value * p * (1.0 - beyond * missing);
+                            }
                         }
                     }
                     let factor = (share * path).exp();
@@ -235,6 +240,18 @@ impl Table {
         }
         Self { entries, count, peak, paths: Axis::new(PATHS.to_vec()), peak_weights, growth, rest_weights }
     }
+}
+
+/// By order, what a series of `count` moments lacks where it is faded out: from its middle on, more and more. A series that just ends rings at every angle.
+fn missing(count: usize) -> Vec<f64> {
+    let late = |l: usize| (2.0 * l as f64 / count as f64 - 1.0).max(0.0);
+    (0..count).map(|l| (FRAC_PI_2 * late(l)).sin().powi(2)).collect()
+}
+
+/// By entry, 0 to 1: where a series of `count` moments is faded out, at angles that it resolves many times.
+fn beyond(count: usize) -> Vec<f64> {
+    let from_start = |entry: usize| (cosine_at(entry).acos() * count as f64 / 10.0 - 1.0).clamp(0.0, 1.0);
+    (0..ENTRIES).map(|entry| from_start(entry).powi(2) * (3.0 - 2.0 * from_start(entry))).collect()
 }
 
 /// Legendre moments that matter.
@@ -327,6 +344,20 @@ mod tests {
                 let (found, expected) = (functions.value(0, &once, cosine), phase.value(0, cosine));
                 assert!((found / expected - 1.0).abs() < 3e-3, "{phase:?} {degrees}: {found} {expected}");
             }
+        }
+    }
+
+    /// A disc of a quarter of a degree changes nothing at ten degrees and beyond: a series that ends abruptly would ring there by a per cent, seen as rings in the sky.
+    #[test]
+    fn the_disc_of_the_sun_leaves_no_rings() {
+        let phase = Phase::HenyeyGreenstein { asymmetry: 0.95 };
+        let functions = AngularFunctions::new(&phase, 1, 8, 0.00465);
+        let share = forward_share(&phase.legendre_moments(10, 0), 8);
+        let once = Once { strength: 1.0 - share, direct_strength: 1.0, path: 0.0 };
+        for tenths in 100..=1800 {
+            let cosine = (0.1 * f64::from(tenths)).to_radians().cos();
+            let (found, expected) = (functions.value(0, &once, cosine), phase.value(0, cosine));
+            assert!((found / expected - 1.0).abs() < 3e-3, "{tenths}: {found} {expected}");
         }
     }
 
