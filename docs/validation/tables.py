@@ -4,6 +4,7 @@ import numpy as np
 import skyprobe as sp
 from common import (
     FLAT_RADIUS_KM,
+    ROOT,
     column,
     directions,
     markdown,
@@ -74,13 +75,19 @@ def by_zenith(name: str, table: dict[str, np.ndarray], error: np.ndarray, noise:
     return rows
 
 
-def natraj(tau: str) -> tuple[list[object], np.ndarray]:
-    """The polarised tables at one optical depth, as their row of figures, and the relative errors of I."""
-    table = read_table(reference(f"natraj2009/downwelling_tau_{tau}.csv"))
+def doubling(tau: str) -> dict[str, np.ndarray]:
+    """The rows of the project's own table at one optical depth, with the signs of Natraj et al."""
+    table = read_table(ROOT / "tests" / "reference" / "rayleigh_polarised.csv")
+    rows = table["tau"] == float(tau)
+    return {name: (-1 if name in "QU" else 1) * values[rows] for name, values in table.items()}
+
+
+def polarised(name: str, tau: str, table: dict[str, np.ndarray]) -> tuple[list[object], np.ndarray]:
+    """A polarised table at one optical depth, as its row of figures, and the relative errors of I."""
     table = {name: values[(table["mu"] >= 0.1)] for name, values in table.items()}
     zero = np.zeros(len(table["I"]))
     table |= {"tau_rayleigh": zero + float(tau), "tau_aerosol": zero, "tau_ozone": zero, "ground_albedo": table["albedo"]}
-    intensity, scalar, polarised = np.empty((3, len(zero)))
+    intensity, scalar, degree = np.zeros((3, len(zero)))
     for result, polarisation in ((intensity, True), (scalar, False)):
         air, wavelengths, air_of_row = airs(table, FLAT_RADIUS_KM, polarisation=polarisation, sun_angular_radius_deg=0.0)
         for mu0 in np.unique(table["mu0"]):
@@ -89,16 +96,14 @@ def natraj(tau: str) -> tuple[list[object], np.ndarray]:
             look = directions(np.degrees(np.arcsin(table["mu"][rows])), -table["phi_deg"][rows])
             each = np.arange(len(rows)), air_of_row[rows]
             result[rows] = np.pi * sky.spectral_radiance(look, wavelengths)[each]
-            if polarisation and hasattr(sky, "stokes"):
+            if polarisation:
                 found = np.pi * sky.stokes(look, wavelengths)[each]
                 # The tables have the opposite sign of Q; that of U depends on the side of the Sun.
                 q, u = found[:, 1] + table["Q"][rows], np.abs(found[:, 2]) - np.abs(table["U"][rows])
-                polarised[rows] = np.hypot(q, u) / table["I"][rows]
-            else:
-                polarised[rows] = polarised[rows] if polarisation is False else np.nan
+                degree[rows] = np.hypot(q, u) / table["I"][rows]
     error = intensity / table["I"] - 1
-    degree = "-" if np.isnan(polarised).any() else f"{polarised.max():.4f}"
-    return [tau, len(error), f"{100 * rms(error):.3f} %", f"{100 * np.abs(error).max():.3f} %", degree, f"{100 * rms(scalar / table['I'] - 1):.2f} %"], error
+    figures = [f"{100 * rms(error):.3f} %", f"{100 * np.abs(error).max():.3f} %", f"{degree.max():.4f}", f"{100 * rms(scalar / table['I'] - 1):.2f} %"]
+    return [name, tau, len(error), *figures], error
 
 
 def report() -> str:
@@ -133,9 +138,11 @@ def report() -> str:
         ]
     )
     text = markdown(["reference", "Sun zenith", "rows", "mean", "rms", "largest", "its own standard error"], rows)
-    found = [natraj(tau) for tau in ("0.1", "0.5")]
+    found = [polarised("doubling", tau, doubling(tau)) for tau in ("0.02", "0.05", "0.15", "0.25", "1")]
+    found += [polarised("Natraj et al.", tau, read_table(reference(f"natraj2009/downwelling_tau_{tau}.csv"))) for tau in ("0.1", "0.5")]
+    found.sort(key=lambda pair: float(pair[0][1]))
     text += "\n" + markdown(
-        ["Natraj et al., optical depth", "rows", "I, rms", "I, largest", "(Q, U) / I, largest", "scalar solution's I, rms"], [row for row, _ in found]
+        ["polarised Rayleigh sky", "optical depth", "rows", "I, rms", "I, largest", "(Q, U) / I, largest", "scalar solution's I, rms"], [row for row, _ in found]
     )
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), sharey=True)
     for axes, table, error, name in ((left, flat, flat_error, "DISORT, flat"), (right, round_, round_error, "Monte Carlo, sphere")):

@@ -6,6 +6,7 @@
 
 use super::axis::Axis;
 use super::lanes::{Lanes, add_scaled, lerp, splat};
+use super::ray::sharp_bends;
 use super::stokes::dipole_share;
 use crate::atmosphere::{OpticalProfile, Phase};
 use rayon::prelude::*;
@@ -115,6 +116,12 @@ impl<const N: usize> Air<N> {
             extinction,
             scatterers,
         }
+    }
+
+    /// Altitudes at which the extinction, as a mean over the wavelengths, changes sharply \[km\].
+    pub fn sharp_bends(&self) -> Vec<f64> {
+        let mean: Vec<f64> = self.extinction.iter().map(|lanes| f64::from(lanes.iter().sum::<f32>())).collect();
+        sharp_bends(self.altitudes.nodes(), &mean)
     }
 
     /// The components that scatter.

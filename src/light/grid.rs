@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::gauss;
+use super::ray::sharp_bends;
 use super::zenith_axis::ZenithAxis;
 use crate::atmosphere::OpticalProfile;
 use crate::quality::Numbers;
@@ -32,6 +33,8 @@ const BY_OPTICAL_DEPTH: f64 = 0.3;
 struct Measure {
     altitudes: Vec<f64>,
     values: Vec<f64>,
+    /// Altitudes at which steps of rays end besides.
+    bends: Vec<f64>,
 }
 
 impl Measure {
@@ -50,12 +53,18 @@ impl Measure {
             }
         }
         let mut share = vec![0.0; z.len()];
-        for below in &mut below {
+        let mut density = vec![0.0; z.len()];
+        for (w, below) in below.iter_mut().enumerate() {
             for i in 1..z.len() {
                 below[i] += below[i - 1];
             }
             let all = below[z.len() - 1].max(1e-12);
             share.iter_mut().zip(below.iter()).for_each(|(share, below)| *share += below / all / count as f64);
+            for (i, density) in density.iter_mut().enumerate() {
+                let extinction =
+                    profile.components.iter().map(|c| c.scattering_per_km[i * count + w] + c.absorption_per_km[i * count + w]);
+                *density += extinction.sum::<f64>() / all;
+            }
         }
         // Finer than the profile's own altitudes, between which the shares are linear.
         let (mut altitudes, mut values) = (Vec::new(), Vec::new());
@@ -71,7 +80,7 @@ impl Measure {
         }
         altitudes.push(top);
         values.push((1.0 - BY_OPTICAL_DEPTH) + BY_OPTICAL_DEPTH * share[z.len() - 1]);
-        Self { altitudes, values }
+        Self { altitudes, values, bends: sharp_bends(z, &density) }
     }
 
     /// `count` levels from the ground to the top.
@@ -84,6 +93,15 @@ impl Measure {
             self.altitudes[k - 1] + t.clamp(0.0, 1.0) * (self.altitudes[k] - self.altitudes[k - 1])
         };
         Axis::new((0..count).map(at).collect())
+    }
+
+    /// `count` levels, and those at which the air changes sharply.
+    fn shells(&self, count: usize) -> Axis {
+        let mut levels = self.spread(count).nodes().to_vec();
+        levels.extend(&self.bends);
+        levels.sort_by(f64::total_cmp);
+        levels.dedup_by(|b, a| *b - *a < 1e-6);
+        Axis::new(levels)
     }
 }
 
@@ -126,7 +144,7 @@ impl Grid {
         let make = |altitudes: usize, solar_zenith_angles: usize| {
             let zeniths = ZenithAxis::new(solar_zenith_angles);
             let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
-            let [shells, fine_shells] = [numbers.shells, FINER * numbers.shells].map(|count| measure.spread(count));
+            let [shells, fine_shells] = [numbers.shells, FINER * numbers.shells].map(|count| measure.shells(count));
             Self { altitudes: measure.spread(altitudes), shells, fine_shells, zeniths, sun, radius }
         };
         [

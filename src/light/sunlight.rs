@@ -47,7 +47,11 @@ impl<const N: usize> Sunlight<N> {
     fn without_disc(air: &Air<N>) -> Self {
         let top = air.top;
         let altitudes = Axis::new((0..LEVELS).map(|i| top * (i as f64 / (LEVELS - 1) as f64).powf(2.4)).collect());
-        let shells = Axis::new((0..=40).map(|i| top * (f64::from(i) / 40.0).powf(2.2)).collect());
+        let mut shells: Vec<f64> = (0..=40).map(|i| top * (f64::from(i) / 40.0).powf(2.2)).collect();
+        shells.extend(air.sharp_bends());
+        shells.sort_by(f64::total_cmp);
+        shells.dedup_by(|b, a| *b - *a < 1e-6);
+        let shells = Axis::new(shells);
         let limits = StepLimits { length_km: 25.0 * air.radius / EARTH_RADIUS_KM, optical_depth: f32::INFINITY };
         let log_depth = altitudes
             .nodes()
