@@ -20,11 +20,11 @@ fn a_moonless_zenith_is_as_dark_as_published() {
         let luminance = airglow.luminance(DVec3::Z) + zodiacal.luminance(ecliptic_pole()) + starlight.luminance(galactic_pole);
         surface_brightness_of_luminance(luminance)
     };
-    // checked against: Benn & Ellison 1998, New Astron. Rev. 42, 503: V 21.9 at solar minimum, zenith, high latitudes; 0.1 brighter without extinction. From 145 to 275 S10(V) of airglow beside 75: 2.5 log10(350 / 220) = 0.50.
-    assert!((zenith(80.0) - 21.8).abs() < 0.1, "{}", zenith(80.0));
-    assert!((zenith(80.0) - zenith(200.0) - 0.50).abs() < 0.04, "{}", zenith(200.0));
-    // checked against: Patat 2003, A&A 400, 1183: Paranal, mean 21.6 +- 0.2 at high solar activity; natural nights 21.6 to 22.0
-    assert!((21.6..22.0).contains(&zenith(Airglow::MEAN_SOLAR_FLUX_SFU)), "{}", zenith(Airglow::MEAN_SOLAR_FLUX_SFU));
+    // checked against: Benn & Ellison 1998, New Astron. Rev. 42, 503: V 21.9 at solar minimum, zenith, high latitudes; Patat 2003, A&A 400, 1183: Paranal, 21.6 +- 0.2 at high solar activity
+    assert!((zenith(80.0) - 21.9).abs() < 0.2, "{}", zenith(80.0));
+    assert!((zenith(175.0) - 21.6).abs() < 0.2, "{}", zenith(175.0));
+    // checked against: Cinzano, Falchi & Elvidge 2001, MNRAS 328, 689: natural zenith between the stars 174 ucd m-2 at mean activity; here starlight too
+    assert!((21.75..22.0).contains(&zenith(Airglow::MEAN_SOLAR_FLUX_SFU)), "{}", zenith(Airglow::MEAN_SOLAR_FLUX_SFU));
 }
 
 #[test]
