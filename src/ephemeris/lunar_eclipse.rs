@@ -42,6 +42,15 @@ impl EarthShadow {
         self.penumbral_magnitude > 0.0
     }
 
+    /// What kind of eclipse it is: "total", "partial" or "penumbral"; of the latter kind is also a Moon that is not eclipsed.
+    pub fn kind(&self) -> &'static str {
+        match self.umbral_magnitude {
+            magnitude if magnitude >= 1.0 => "total",
+            magnitude if magnitude > 0.0 => "partial",
+            _ => "penumbral",
+        }
+    }
+
     /// Angle between a point of the Moon's surface and the axis of the shadow, to be compared with the radii of umbra and penumbra;
     /// `normal`: unit vector from the Moon's centre, body-fixed axes [degrees].
     pub fn axis_angle_deg(&self, normal: DVec3) -> f64 {
@@ -50,6 +59,11 @@ impl EarthShadow {
 }
 
 impl Bodies {
+    /// The eclipse of the Moon, if any part of it is in the penumbra; see [`Self::earth_shadow`].
+    pub fn lunar_eclipse(&self) -> Option<EarthShadow> {
+        Some(self.earth_shadow()).filter(EarthShadow::is_eclipse)
+    }
+
     /// The Earth's shadow at the distance of the Moon, whether the Moon is in it or not. Asks for the precise models: the thesis's Moon has no parallax,
     /// and with it the shadow is a degree off.
     pub fn earth_shadow(&self) -> EarthShadow {
@@ -135,5 +149,13 @@ mod tests {
     fn no_shadow_at_half_moon() {
         let shadow = shadow(0.0, 0.0, "2018-02-07T16:00:00Z");
         assert!(!shadow.is_eclipse() && shadow.moon_axis_angle_deg > 80.0);
+    }
+
+    #[test]
+    fn the_kinds_follow_each_other() {
+        // checked against: NASA eclipse page of 2018-01-31: penumbral from 10:51, partial from 11:48, total from 12:52 UT.
+        for (text, kind) in [("11:30", "penumbral"), ("12:00", "partial"), ("12:55", "total"), ("15:00", "partial")] {
+            assert_eq!(shadow(19.8, -155.5, &format!("2018-01-31T{text}:00Z")).kind(), kind, "{text}");
+        }
     }
 }

@@ -30,6 +30,17 @@ pub struct SolarEclipse {
     pub moon_from_zenith_deg: f64,
 }
 
+impl SolarEclipse {
+    /// What kind of eclipse it is here and now: "total", "annular" or "partial".
+    pub fn kind(&self) -> &'static str {
+        match self.separation_deg <= (self.sun_radius_deg - self.moon_radius_deg).abs() {
+            true if self.moon_radius_deg >= self.sun_radius_deg => "total",
+            true => "annular",
+            false => "partial",
+        }
+    }
+}
+
 impl Bodies {
     /// The eclipse of the Sun, if the Moon's disc covers a part of it. Asks for the precise models: the thesis's Moon has no parallax.
     pub fn solar_eclipse(&self) -> Option<SolarEclipse> {
@@ -92,6 +103,7 @@ mod tests {
         let total = eclipse(45.08, 24.2917, "1999-08-11T11:03:07Z").unwrap();
         println!("{total:?}");
         assert!(total.separation_deg < 0.003 && total.obscuration == 1.0);
+        assert_eq!(total.kind(), "total");
         assert!((total.magnitude - 1.0286).abs() < 0.001, "{}", total.magnitude);
     }
 
@@ -102,6 +114,7 @@ mod tests {
         let crescent = eclipse(55.7047, 13.191, time).unwrap();
         println!("{crescent:?}");
         assert!((crescent.separation_deg - 0.114_0).abs() < 2e-4);
+        assert_eq!(crescent.kind(), "partial");
         assert!((crescent.magnitude - 0.797).abs() < 0.002 && (0.72..0.78).contains(&crescent.obscuration));
         assert!((crescent.moon_from_zenith_deg - 180.33).abs() < 0.2);
         assert!(eclipse(55.7047, 13.191, "1999-08-11T17:45:00+02:00").is_none());

@@ -5,8 +5,10 @@ use super::observer::{Apparent, Observer};
 use super::place::Place;
 use super::planets::{self, Planet};
 use super::sun;
+use crate::error::{Error, Result};
 use crate::time::Time;
 use crate::units::{ASTRONOMICAL_UNIT_KM, SOLAR_RADIUS_KM};
+use std::str::FromStr;
 
 /// A body of the solar system that rises and sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -72,6 +74,33 @@ impl Target {
     }
 }
 
+impl FromStr for Target {
+    type Err = Error;
+
+    /// The body of an English name, in any case.
+    fn from_str(text: &str) -> Result<Self> {
+        let mut all = [Self::Sun, Self::Moon].into_iter().chain(Planet::ALL.map(Self::Planet));
+        all.find(|target| target.name().eq_ignore_ascii_case(text)).ok_or_else(|| {
+            let allowed = "Sun, Moon, Mercury, Venus, Mars, Jupiter, Saturn, Uranus or Neptune";
+            Error::input("name", format!("{text:?}"), allowed)
+        })
+    }
+}
+
 fn altitude_deg(seen: &Apparent) -> f64 {
     seen.direction.z.atan2(seen.direction.x.hypot(seen.direction.y)).to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for target in [Target::Sun, Target::Moon, Target::Planet(Planet::Neptune)] {
+            assert_eq!(target.name().parse::<Target>().unwrap(), target);
+        }
+        assert_eq!("saturn".parse::<Target>().unwrap(), Target::Planet(Planet::Saturn));
+        assert!("Pluto".parse::<Target>().unwrap_err().to_string().starts_with("name = \"Pluto\": must be Sun, Moon, Mercury"));
+    }
 }

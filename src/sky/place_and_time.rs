@@ -257,9 +257,12 @@ impl Sky {
         let by_sunlight = luminous(&diffuse_horizontal(field, &self.observer(), progress)?, &sky_weights);
         let night = self.night_light(field, &LightOptions::default(), progress)?;
         let moons = night.only(Layer::Moon).discs();
-        let moon_normal_lx = moons.iter().map(|disc| LUMINOUS_EFFICACY * disc.irradiance[1]).sum::<f64>();
-        let moon_horizontal_lx =
-            moons.iter().map(|disc| LUMINOUS_EFFICACY * disc.irradiance[1] * disc.direction.z.max(0.0)).sum::<f64>();
+        // A sum of nothing would be -0.
+        let by_the_moon = |cosine: fn(&Disc) -> f64| {
+            moons.iter().fold(0.0, |sum, disc| sum + LUMINOUS_EFFICACY * disc.irradiance[1] * cosine(disc))
+        };
+        let moon_normal_lx = by_the_moon(|_| 1.0);
+        let moon_horizontal_lx = by_the_moon(|disc| disc.direction.z.max(0.0));
         let diffuse_horizontal_lx = by_sunlight + LUMINOUS_EFFICACY * horizontal_irradiance(&night)[1];
         Ok(Illuminance {
             direct_normal_lx,

@@ -13,6 +13,7 @@ pub use options::{NightOptions, When};
 
 use super::Sky;
 use super::layers::{Layer, LayerScales, Layers, Part};
+use super::model::Model;
 use crate::celestial::{Airglow, MilkyWay, ZodiacalLight};
 use crate::ephemeris::Bodies;
 use crate::error::Result;
@@ -32,6 +33,20 @@ impl Sky {
             When::Always => true,
             When::Never => false,
         }
+    }
+
+    /// The layers that this sky has by `model`, in the order of [`Layer::ALL`]; also those that shine below the horizon now.
+    pub fn layers_by(&self, model: Model) -> Vec<Layer> {
+        let seen = model == Model::Scattering && self.bodies_of_place().is_some() && self.night().when != When::Never;
+        let dark = seen && self.is_night(self.night());
+        let has_towns = self.night().light_pollution().is_ok_and(|light| light.is_some());
+        let has = |layer: &Layer| match layer {
+            Layer::Sky | Layer::Sun => true,
+            Layer::Moon | Layer::Planets => seen,
+            Layer::Stars | Layer::MilkyWay | Layer::Zodiacal | Layer::Airglow => dark,
+            Layer::LightPollution => dark && has_towns,
+        };
+        Layer::ALL.into_iter().filter(has).collect()
     }
 
     /// Adds the lights of the night to `layers`, as far as `options` ask for them and `scales` leave them.
@@ -100,5 +115,39 @@ impl Sky {
             layers.add(Layer::LightPollution, scales.of(Layer::LightPollution), smooth(Box::new(light)));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atmosphere::AirParameters;
+    use crate::ephemeris::{Place, SunModel};
+    use crate::quality::Quality;
+    use crate::sky::Atmosphere;
+    use crate::time::{Time, ZoneChoice};
+    use std::sync::Arc;
+
+    #[test]
+    fn the_layers_that_are_named_are_those_that_are_made() {
+        let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+        let place = Place::new(55.7, 13.2, 0.0).unwrap();
+        let night = NightOptions { star_limit: 3.0, ..Default::default() };
+        for (text, night, model, count) in [
+            ("2005-06-21T13:00:00+02:00", night, Model::Scattering, 4),
+            ("2005-01-10T23:00:00+01:00", night, Model::Scattering, 8),
+            ("2005-01-10T23:00:00+01:00", NightOptions { bortle: Some(5), ..night }, Model::Scattering, 9),
+            ("2005-01-10T23:00:00+01:00", NightOptions { when: When::Never, ..night }, Model::Scattering, 2),
+            ("2005-06-21T13:00:00+02:00", NightOptions { when: When::Always, ..night }, Model::Scattering, 8),
+            ("2005-06-21T13:00:00+02:00", NightOptions { when: When::Always, ..night }, Model::Preetham, 2),
+        ] {
+            let time = Time::parse(text, ZoneChoice::InText).unwrap();
+            let sky = Sky::new(place, time, SunModel::Iau, air.clone()).unwrap().with_night(night).unwrap();
+            let named = sky.layers_by(model);
+            assert_eq!(named, sky.light_by(&model.into(), &Progress::silent()).unwrap().names(), "{text} {night:?}");
+            assert_eq!(named.len(), count, "{text} {night:?}");
+        }
+        let put = Sky::with_sun(-20.0, 0.0, 0.0, air).unwrap();
+        assert_eq!(put.layers_by(Model::Scattering), [Layer::Sky, Layer::Sun]);
     }
 }
