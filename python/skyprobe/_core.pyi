@@ -2,7 +2,7 @@
 
 import datetime
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Literal, TypeAlias, final
 
 import numpy
@@ -32,6 +32,10 @@ _Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea",
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
 _Model: TypeAlias = Literal["scattering", "preetham", "thesis", "thesis_single"]
+_LayerName: TypeAlias = Literal[
+    "sky", "sun", "moon", "stars", "planets", "milky_way", "zodiacal", "airglow", "light_pollution"
+]
+_PhaseName: TypeAlias = Literal["new", "first quarter", "full", "last quarter"]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -43,10 +47,15 @@ __all__ = [
     "Illuminance",
     "InputError",
     "Irradiance",
+    "LunarEclipse",
+    "Moon",
+    "Night",
     "Phase",
     "PolarisingFilter",
     "Probe",
+    "RiseAndSet",
     "Sky",
+    "SolarEclipse",
     "SunEvents",
     "__version__",
     "run_command_line",
@@ -254,7 +263,6 @@ class Atmosphere:
     def wavelengths_nm(self) -> NDArray[numpy.float64]:
         """Wavelengths of the optical profile, shape (W,). [nm]"""
 
-@final
 class Body:
     """A body as it stands in the sky."""
 
@@ -288,11 +296,11 @@ class Body:
 
     @property
     def phase_angle_deg(self) -> float | None:
-        """Angle at the body between Sun and observer, of bodies that shine by sunlight. [degrees]"""
+        """Angle at the body between Sun and observer, 0 (full) to 180 (new), of bodies that shine by sunlight. [degrees]"""
 
     @property
     def illuminated_fraction(self) -> float | None:
-        """Fraction of the disc that is lit, of bodies that shine by sunlight."""
+        """Fraction of the disc that is lit, 0 to 1, of bodies that shine by sunlight."""
 
     @property
     def direction(self) -> tuple[float, float, float]:
@@ -301,6 +309,135 @@ class Body:
     @property
     def apparent_direction(self) -> tuple[float, float, float]:
         """Unit vector (east, north, up) to the refracted position."""
+
+@final
+class Moon(Body):
+    """The Moon as it stands in the sky: a body of which more is known. Its magnitude is that outside the Earth's shadow."""
+
+    @property
+    def distance_km(self) -> float:
+        """Distance from the observer to the Moon's centre. [km]"""
+
+    @property
+    def elongation_deg(self) -> float:
+        """Angle between Moon and Sun in the sky. [degrees]"""
+
+    @property
+    def sub_observer_deg(self) -> tuple[float, float]:
+        """Longitude (positive towards Mare Crisium) and latitude of the point of the Moon that has the observer in its zenith: the topocentric libration.
+        [degrees]
+        """
+
+    @property
+    def sub_solar_deg(self) -> tuple[float, float]:
+        """Longitude and latitude of the point of the Moon that has the Sun in its zenith. [degrees]"""
+
+    @property
+    def bright_limb_position_angle_deg(self) -> float:
+        """Position angle of the middle of the bright limb, from celestial north through east. [degrees]"""
+
+    @property
+    def bright_limb_from_zenith_deg(self) -> float:
+        """The same from the zenith, counterclockwise as one sees it: 0 is lit from above, 90 from the left. [degrees]"""
+
+    @property
+    def axis_position_angle_deg(self) -> float:
+        """Position angle of the Moon's north pole, from celestial north through east. [degrees]"""
+
+    @property
+    def axis_from_zenith_deg(self) -> float:
+        """The same from the zenith, counterclockwise as one sees it. [degrees]"""
+
+@final
+class RiseAndSet:
+    """When a body rises, stands highest and sets on the local date of a sky, in its zone. What does not happen on that date is None.
+
+    The horizon is level, with 34 arcminutes of refraction; Sun and Moon count with their upper limb.
+    """
+
+    @property
+    def rise(self) -> datetime.datetime | None:
+        """It appears above the horizon."""
+
+    @property
+    def transit(self) -> datetime.datetime | None:
+        """It passes the meridian above the pole."""
+
+    @property
+    def transit_altitude_deg(self) -> float | None:
+        """Its airless altitude then. [degrees]"""
+
+    @property
+    def set(self) -> datetime.datetime | None:
+        """It disappears below the horizon."""
+
+    @property
+    def up_at_midnight(self) -> bool:
+        """It is above the horizon when the date begins: with neither rise nor set, all day."""
+
+@final
+class SolarEclipse:
+    """The Moon before the Sun, as seen from the place of a sky at its time, airless, whether the Sun is above the horizon or not."""
+
+    @property
+    def kind(self) -> Literal["partial", "annular", "total"]:
+        """"partial", "annular" or "total", here and now."""
+
+    @property
+    def magnitude(self) -> float:
+        """Covered part of the Sun's diameter; while it is total or annular, the Moon's diameter over the Sun's."""
+
+    @property
+    def obscuration(self) -> float:
+        """Covered part of the Sun's area, 0 to 1."""
+
+    @property
+    def visible_fraction(self) -> float:
+        """Part of the Sun's light at 550 nm that is left, 0 to 1: other than 1 - obscuration, because the limb is darker than the middle."""
+
+    @property
+    def separation_deg(self) -> float:
+        """Angle between the centres of Sun and Moon. [degrees]"""
+
+    @property
+    def moon_position_angle_deg(self) -> float:
+        """Position angle of the Moon's centre seen from the Sun's, from celestial north through east. [degrees]"""
+
+    @property
+    def moon_from_zenith_deg(self) -> float:
+        """The same from the zenith, counterclockwise as one sees it. [degrees]"""
+
+@final
+class LunarEclipse:
+    """The Moon in the Earth's shadow, the same for all places, whether the Moon is above the horizon or not. Angles are seen from the Earth's centre."""
+
+    @property
+    def kind(self) -> Literal["penumbral", "partial", "total"]:
+        """"penumbral", "partial" or "total", now."""
+
+    @property
+    def umbral_magnitude(self) -> float:
+        """Part of the Moon's diameter that is in the umbra: below 0 outside, 1 and more in totality."""
+
+    @property
+    def penumbral_magnitude(self) -> float:
+        """Part of the Moon's diameter that is in the penumbra."""
+
+    @property
+    def umbra_radius_deg(self) -> float:
+        """Angular radius of the umbra at the Moon's distance. [degrees]"""
+
+    @property
+    def penumbra_radius_deg(self) -> float:
+        """Angular radius of the penumbra at the Moon's distance. [degrees]"""
+
+    @property
+    def moon_axis_angle_deg(self) -> float:
+        """Angle between the Moon's centre and the axis of the shadow. [degrees]"""
+
+    @property
+    def axis_from_zenith_deg(self) -> float:
+        """Direction of the shadow's axis from the Moon's centre, from the zenith of the place counterclockwise as one sees it. [degrees]"""
 
 @final
 class SunEvents:
@@ -351,7 +488,7 @@ class SunEvents:
 
 @final
 class Irradiance:
-    """Spectral irradiance, each of shape (W,). [W m-2 nm-1]"""
+    """Spectral irradiance by the light of the Sun, each of shape (W,). [W m-2 nm-1]"""
 
     @property
     def direct_normal(self) -> NDArray[numpy.float64]:
@@ -363,7 +500,7 @@ class Irradiance:
 
     @property
     def diffuse_horizontal(self) -> NDArray[numpy.float64]:
-        """Of the sky without the disc, on the horizontal plane. [W m-2 nm-1]"""
+        """Of the sky that the Sun lights, without the disc, on the horizontal plane. [W m-2 nm-1]"""
 
 @final
 class Illuminance:
@@ -378,12 +515,20 @@ class Illuminance:
         """Of the Sun's disc, on the horizontal plane. [lx]"""
 
     @property
+    def moon_normal_lx(self) -> float:
+        """Of the Moon's disc, on a plane that faces it. [lx]"""
+
+    @property
+    def moon_horizontal_lx(self) -> float:
+        """Of the Moon's disc, on the horizontal plane. [lx]"""
+
+    @property
     def diffuse_horizontal_lx(self) -> float:
-        """Of the sky without the disc, on the horizontal plane. [lx]"""
+        """Of the sky with all that shines in it but the discs of Sun and Moon, on the horizontal plane. [lx]"""
 
     @property
     def global_horizontal_lx(self) -> float:
-        """Of disc and sky, on the horizontal plane. [lx]"""
+        """Of discs and sky, on the horizontal plane. [lx]"""
 
 @final
 class PolarisingFilter:
@@ -417,6 +562,64 @@ class PolarisingFilter:
         """Altitude and azimuth towards which the filter is held; None if it turns with the view. [degrees]"""
 
 @final
+class Night:
+    """What of the night is in a sky with place and time, and how bright what varies is.
+
+    Parameters
+    ----------
+    when
+        "auto": Moon and planets always, and while the Sun's centre is below the horizon moonlight in the air, stars and diffuse light too, which by
+        day are less than a thousandth of the light. "always": all of them by day, too. "never": none.
+    star_limit
+        Stars to this magnitude V are drawn one by one, -2 to 8.5; the light of fainter ones is part of the Milky Way.
+    solar_flux_sfu
+        Solar radio flux at 10.7 cm, with which the airglow grows, 60 to 300: 70 at the Sun's minimum, 130 on average, 200 at maximum.
+        [solar flux units]
+    zenith_brightness
+        Brightness of the moonless zenith over a lit country, natural light (22.0) included, 15 to 22. None: no artificial light, unless ``bortle`` is
+        given. [mag arcsec-2]
+    bortle
+        The same as a class of Bortle's scale, 1 (as dark as it gets) to 9 (inner city). At most one of the two is given.
+    led_share
+        Share of the artificial light that comes from white LEDs, 0 to 1; the rest comes from high-pressure sodium lamps.
+    """
+
+    def __new__(
+        cls,
+        *,
+        when: Literal["auto", "always", "never"] = "auto",
+        star_limit: float = 8.5,
+        solar_flux_sfu: float = 130.0,
+        zenith_brightness: float | None = None,
+        bortle: int | None = None,
+        led_share: float = 0.5,
+    ) -> Night: ...
+
+    @property
+    def when(self) -> Literal["auto", "always", "never"]:
+        """When the lights of the night are in the sky: "auto", "always" or "never"."""
+
+    @property
+    def star_limit(self) -> float:
+        """Stars to this magnitude V are drawn one by one."""
+
+    @property
+    def solar_flux_sfu(self) -> float:
+        """Solar radio flux at 10.7 cm. [solar flux units]"""
+
+    @property
+    def zenith_brightness(self) -> float | None:
+        """Brightness of the zenith with artificial light; None if it was not given. [mag arcsec-2]"""
+
+    @property
+    def bortle(self) -> int | None:
+        """Class of Bortle's scale; None if it was not given."""
+
+    @property
+    def led_share(self) -> float:
+        """Share of the artificial light that comes from white LEDs."""
+
+@final
 class Sky:
     """An atmosphere seen from a place at a time.
 
@@ -435,11 +638,14 @@ class Sky:
     zone
         IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
     sun_model
-        By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+        By which theory Sun and Moon stand where they do: "iau" (IAU, ELP/MPP02), or "thesis" (low precision, the Moon without parallax: eclipses are a
+        degree off).
     model
         By which model the sky is rendered: "scattering" (solved light: day, twilight, night) "preetham" (the analytic sky of 1999, by day at
         turbidities from 2 to 10), "thesis" or "thesis_single" (ray marching with random steps, light scattered at most twice or once:
-        noisy, for small images). Spectra, irradiance and illuminance are those of "scattering".
+        noisy, for small images). Spectra, irradiance and illuminance are those of "scattering", and the others know no night.
+    night
+        What of the night is in the sky; None for ``Night()``.
     """
 
     def __new__(
@@ -453,6 +659,7 @@ class Sky:
         zone: str | None = None,
         sun_model: Literal["iau", "thesis"] = "iau",
         model: _Model = "scattering",
+        night: Night | None = None,
     ) -> Sky: ...
     @staticmethod
     def with_sun(
@@ -463,7 +670,7 @@ class Sky:
         elevation_m: float = 0.0,
         model: _Model = "scattering",
     ) -> Sky:
-        """The sky under a Sun that is put, without place and time.
+        """The sky under a Sun that is put, without place and time, and so without Moon, stars and the other lights of the night.
 
         Parameters
         ----------
@@ -511,16 +718,52 @@ class Sky:
     def sun(self) -> Body:
         """The Sun."""
 
+    @property
+    def moon(self) -> Moon | None:
+        """The Moon; None for a sky without place and time."""
+
+    @property
+    def night(self) -> Night | None:
+        """What of the night is in this sky; None for a sky without place and time."""
+
+    @property
+    def layer_names(self) -> list[_LayerName]:
+        """Names of the layers that the light of this sky is made of, of "sky" (light scattered by the air, and the ground), "sun", "moon", "stars",
+        "planets", "milky_way", "zodiacal", "airglow" and "light_pollution". They are the keys of ``layers`` in ``render``.
+        """
+
     def bodies(self) -> list[Body]:
-        """All bodies that light this sky."""
+        """Sun, Moon and planets from Mercury to Neptune, above and below the horizon, the Moon as a ``Moon``; of a Sun that is put, that Sun alone."""
 
     def sun_events(self) -> SunEvents:
         """Sunrise, sunset, twilights and noon on the local date of this sky's time."""
 
+    def rise_and_set(self, name: str) -> RiseAndSet:
+        """When a body rises, stands highest and sets on the local date of this sky's time.
+
+        Parameters
+        ----------
+        name
+            Name of one of ``bodies()``, such as "Moon" or "Venus", in any case.
+        """
+
+    def moon_phases(self) -> list[tuple[_PhaseName, datetime.datetime]]:
+        """The next four phases of the Moon after this sky's time, in the order of their dates: name ("new", "first quarter", "full", "last quarter") and
+        when, the same for all places.
+        """
+
+    @property
+    def solar_eclipse(self) -> SolarEclipse | None:
+        """How the Moon stands before the Sun; None if it does not."""
+
+    @property
+    def lunar_eclipse(self) -> LunarEclipse | None:
+        """How the Moon stands in the Earth's shadow; None if no part of it does."""
+
     def spectral_radiance(
         self, directions: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
     ) -> NDArray[numpy.float64]:
-        """Spectral radiance of sky and ground without the Sun's disc, shape (N, W). [W m-2 sr-1 nm-1]
+        """Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
 
         Parameters
         ----------
@@ -535,7 +778,7 @@ class Sky:
     def stokes(
         self, directions: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
     ) -> NDArray[numpy.float64]:
-        """Stokes parameters I, Q, U of sky and ground without the Sun's disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+        """Stokes parameters I, Q, U of sky and ground by the light of the Sun, without its disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
 
         Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
         as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
@@ -552,7 +795,7 @@ class Sky:
         """
 
     def irradiance(self, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None) -> Irradiance:
-        """Spectral irradiance of Sun and sky. [W m-2 nm-1]
+        """Spectral irradiance by the light of the Sun: of its disc and of the sky. Moonlight and the other lights of the night are not in it. [W m-2 nm-1]
 
         Parameters
         ----------
@@ -563,7 +806,7 @@ class Sky:
         """
 
     def illuminance(self, *, progress: _Progress | None = None) -> Illuminance:
-        """Illuminance of Sun and sky. [lx]"""
+        """Illuminance of Sun, Moon and sky, with all that shines in it. [lx]"""
 
     def sun_irradiance_rgb(
         self,
@@ -588,6 +831,7 @@ class Sky:
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
+        layers: Mapping[_LayerName, float] | None = None,
         progress: _Progress | None = None,
     ) -> Probe:
         """An image of the light from all directions.
@@ -618,6 +862,8 @@ class Sky:
         tolerance
             Relative error that interpolated directions may have, 0.0001 to 0.5: light is gathered in as many directions as that needs. None: in as
             many as the quality says.
+        layers
+            Factors on the light of layers by their names, 0 (left out) to 1e9, such as ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
         progress
             Called with stage and fraction; returning False raises Cancelled.
         """
@@ -637,6 +883,8 @@ class Sky:
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
+        layers: Mapping[_LayerName, float] | None = None,
+        separate_layers: bool = False,
         half: bool | Literal["off", "refuse", "scale"] | None = None,
         exposure_stops: float = 0.0,
         progress: _Progress | None = None,
@@ -648,8 +896,10 @@ class Sky:
         ----------
         path
             Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance
+        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
             As for ``render``.
+        separate_layers
+            Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
         half, exposure_stops
             As for ``Probe.save``.
         progress

@@ -4,9 +4,12 @@
 //! and defaults are the same on both sides, which the tests check.
 
 mod air;
+mod arguments;
 mod arrays;
+mod bodies;
 mod errors;
 mod filter;
+mod night;
 mod probe;
 mod results;
 mod sky;
@@ -26,9 +29,14 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<air::Component>()?;
     module.add_class::<air::Phase>()?;
     module.add_class::<filter::PolarisingFilter>()?;
+    module.add_class::<night::Night>()?;
     module.add_class::<sky::Sky>()?;
     module.add_class::<probe::Probe>()?;
-    module.add_class::<results::Body>()?;
+    module.add_class::<bodies::Body>()?;
+    module.add_class::<bodies::Moon>()?;
+    module.add_class::<bodies::RiseAndSet>()?;
+    module.add_class::<bodies::SolarEclipse>()?;
+    module.add_class::<bodies::LunarEclipse>()?;
     module.add_class::<results::SunEvents>()?;
     module.add_class::<results::Irradiance>()?;
     module.add_class::<results::Illuminance>()?;

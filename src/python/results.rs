@@ -1,90 +1,10 @@
-//! Plain results: `Body`, `SunEvents`, `Irradiance`, `Illuminance`.
+//! Plain results: `SunEvents`, `Irradiance`, `Illuminance`.
 
 use crate::ephemeris;
 use crate::sky;
 use crate::time::Time;
 use numpy::PyArray1;
 use pyo3::prelude::*;
-
-/// A body as it stands in the sky.
-#[pyclass(frozen, module = "skyprobe")]
-pub struct Body {
-    pub inner: ephemeris::Body,
-}
-
-#[pymethods]
-impl Body {
-    /// English name, such as "Sun".
-    #[getter]
-    fn name(&self) -> &str {
-        &self.inner.name
-    }
-
-    /// Airless altitude of the centre. [degrees]
-    #[getter]
-    fn altitude_deg(&self) -> f64 {
-        self.inner.altitude_deg
-    }
-
-    /// Azimuth from north through east. [degrees]
-    #[getter]
-    fn azimuth_deg(&self) -> f64 {
-        self.inner.azimuth_deg
-    }
-
-    /// Altitude of the centre as refraction shows it. [degrees]
-    #[getter]
-    fn apparent_altitude_deg(&self) -> f64 {
-        self.inner.apparent_altitude_deg
-    }
-
-    /// Distance from the observer. [au]
-    #[getter]
-    fn distance_au(&self) -> f64 {
-        self.inner.distance_au
-    }
-
-    /// Angular diameter without refraction. [degrees]
-    #[getter]
-    fn angular_diameter_deg(&self) -> f64 {
-        self.inner.angular_diameter_deg
-    }
-
-    /// Visual magnitude outside the air, where it is known.
-    #[getter]
-    fn magnitude(&self) -> Option<f64> {
-        self.inner.magnitude
-    }
-
-    /// Angle at the body between Sun and observer, of bodies that shine by sunlight. [degrees]
-    #[getter]
-    fn phase_angle_deg(&self) -> Option<f64> {
-        self.inner.phase_angle_deg
-    }
-
-    /// Fraction of the disc that is lit, of bodies that shine by sunlight.
-    #[getter]
-    fn illuminated_fraction(&self) -> Option<f64> {
-        self.inner.illuminated_fraction
-    }
-
-    /// Unit vector (east, north, up) to the airless position.
-    #[getter]
-    fn direction(&self) -> (f64, f64, f64) {
-        self.inner.direction().into()
-    }
-
-    /// Unit vector (east, north, up) to the refracted position.
-    #[getter]
-    fn apparent_direction(&self) -> (f64, f64, f64) {
-        self.inner.apparent_direction().into()
-    }
-
-    fn __repr__(&self) -> String {
-        let Self { inner } = self;
-        format!("<Body {}: altitude {:.4} deg, azimuth {:.4} deg>", inner.name, inner.altitude_deg, inner.azimuth_deg)
-    }
-}
 
 /// An instant as an aware `datetime.datetime`.
 pub fn datetime<'py>(py: Python<'py>, time: &Time) -> PyResult<Bound<'py, PyAny>> {
@@ -168,7 +88,7 @@ impl SunEvents {
     }
 }
 
-/// Spectral irradiance, each of shape (W,). [W m-2 nm-1]
+/// Spectral irradiance by the light of the Sun, each of shape (W,). [W m-2 nm-1]
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Irradiance {
     direct_normal: Py<PyArray1<f64>>,
@@ -201,7 +121,7 @@ impl Irradiance {
         self.direct_horizontal.clone_ref(py)
     }
 
-    /// Of the sky without the disc, on the horizontal plane. [W m-2 nm-1]
+    /// Of the sky that the Sun lights, without the disc, on the horizontal plane. [W m-2 nm-1]
     #[getter]
     fn diffuse_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.diffuse_horizontal.clone_ref(py)
@@ -228,23 +148,35 @@ impl Illuminance {
         self.inner.direct_horizontal_lx
     }
 
-    /// Of the sky without the disc, on the horizontal plane. [lx]
+    /// Of the Moon's disc, on a plane that faces it. [lx]
+    #[getter]
+    fn moon_normal_lx(&self) -> f64 {
+        self.inner.moon_normal_lx
+    }
+
+    /// Of the Moon's disc, on the horizontal plane. [lx]
+    #[getter]
+    fn moon_horizontal_lx(&self) -> f64 {
+        self.inner.moon_horizontal_lx
+    }
+
+    /// Of the sky with all that shines in it but the discs of Sun and Moon, on the horizontal plane. [lx]
     #[getter]
     fn diffuse_horizontal_lx(&self) -> f64 {
         self.inner.diffuse_horizontal_lx
     }
 
-    /// Of disc and sky, on the horizontal plane. [lx]
+    /// Of discs and sky, on the horizontal plane. [lx]
     #[getter]
     fn global_horizontal_lx(&self) -> f64 {
         self.inner.global_horizontal_lx
     }
 
     fn __repr__(&self) -> String {
-        let Self { inner } = self;
+        let sky::Illuminance { direct_horizontal_lx, moon_horizontal_lx, diffuse_horizontal_lx, .. } = self.inner;
         format!(
-            "<Illuminance: direct {:.4} lx and diffuse {:.4} lx, horizontal>",
-            inner.direct_horizontal_lx, inner.diffuse_horizontal_lx
+            "<Illuminance on the horizontal: Sun {direct_horizontal_lx:.4} lx, Moon {moon_horizontal_lx:.4} lx, sky \
+             {diffuse_horizontal_lx:.4} lx>"
         )
     }
 }

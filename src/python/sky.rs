@@ -1,27 +1,27 @@
 //! `Sky`.
 
 use super::air::Atmosphere;
+use super::arguments::{layer_scales, probe_settings, time_text, unit_vectors};
 use super::arrays;
+use super::bodies::{Body, LunarEclipse, Moon, RiseAndSet, SolarEclipse};
 use super::errors::InputError;
 use super::filter::PolarisingFilter;
+use super::night::Night;
 use super::probe::{Probe, read_half};
-use super::results::{Body, Illuminance, Irradiance, SunEvents, datetime};
+use super::results::{Illuminance, Irradiance, SunEvents, datetime};
 use super::work;
-use crate::ephemeris::{self, Place, SunModel};
+use crate::ephemeris::{self, Place, SunModel, next_moon_phases};
 use crate::error::check_range;
 use crate::io::config::time_at;
-use crate::io::{FileOptions, Half, SampleMap, check_output, describe, json, render_to_files};
-use crate::probe::{self, ProbeSettings};
-use crate::sky::{self, LightOptions, Model};
-use glam::DVec3;
+use crate::io::{FileOptions, Format, Half, SampleMap, check_output, describe, render_to_files};
+use crate::probe;
+use crate::sky::{self, Layer, LightOptions, Model};
+use crate::time::Time;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::PyMapping;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Largest departure of a direction's length from 1: what single precision leaves, with room.
-const UNIT_TOLERANCE: f64 = 1e-4;
 
 /// An atmosphere seen from a place at a time.
 ///
@@ -40,11 +40,14 @@ const UNIT_TOLERANCE: f64 = 1e-4;
 /// zone
 ///     IANA time zone, such as "Europe/Stockholm"; by default the zone of the place, found offline.
 /// sun_model
-///     By which theory the Sun stands where it does: "iau", or "thesis" (low precision).
+///     By which theory Sun and Moon stand where they do: "iau" (IAU, ELP/MPP02), or "thesis" (low precision, the Moon without parallax: eclipses are a
+///     degree off).
 /// model
 ///     By which model the sky is rendered: "scattering" (solved light: day, twilight, night) "preetham" (the analytic sky of 1999, by day at
 ///     turbidities from 2 to 10), "thesis" or "thesis_single" (ray marching with random steps, light scattered at most twice or once:
-///     noisy, for small images). Spectra, irradiance and illuminance are those of "scattering".
+///     noisy, for small images). Spectra, irradiance and illuminance are those of "scattering", and the others know no night.
+/// night
+///     What of the night is in the sky; None for ``Night()``.
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Sky {
     inner: Arc<sky::Sky>,
@@ -57,7 +60,7 @@ pub struct Sky {
 impl Sky {
     #[new]
     #[pyo3(signature = (*, latitude, longitude, time, atmosphere, elevation_m = 0.0, zone = None, sun_model = "iau",
-        model = "scattering"))]
+        model = "scattering", night = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         latitude: f64,
@@ -68,15 +71,17 @@ impl Sky {
         zone: Option<&str>,
         sun_model: &str,
         model: &str,
+        night: Option<PyRef<'_, Night>>,
     ) -> PyResult<Self> {
         let place = Place::new(latitude, longitude, elevation_m)?;
         let time = time_at(&place, &time_text(time)?, zone)?;
         let (sun_model, model) = (sun_model.parse()?, model.parse()?);
-        let inner = sky::Sky::new(place, time, sun_model, atmosphere.get().inner.clone())?;
+        let night = night.map(|night| night.inner).unwrap_or_default();
+        let inner = sky::Sky::new(place, time, sun_model, atmosphere.get().inner.clone())?.with_night(night)?;
         Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model, model })
     }
 
-    /// The sky under a Sun that is put, without place and time.
+    /// The sky under a Sun that is put, without place and time, and so without Moon, stars and the other lights of the night.
     ///
     /// Parameters
     /// ----------
@@ -152,21 +157,79 @@ impl Sky {
         Body { inner: self.inner.sun().clone() }
     }
 
-    /// All bodies that light this sky.
-    fn bodies(&self) -> Vec<Body> {
-        self.inner.bodies().into_iter().map(|inner| Body { inner }).collect()
+    /// The Moon; None for a sky without place and time.
+    #[getter]
+    fn moon(&self, py: Python<'_>) -> PyResult<Option<Py<Moon>>> {
+        self.inner.bodies_of_place().map(|bodies| Moon::new(py, &bodies.moon)).transpose()
+    }
+
+    /// What of the night is in this sky; None for a sky without place and time.
+    #[getter]
+    fn night(&self) -> Option<Night> {
+        self.inner.place().map(|_| Night { inner: *self.inner.night() })
+    }
+
+    /// Names of the layers that the light of this sky is made of, of "sky" (light scattered by the air, and the ground), "sun", "moon", "stars",
+    /// "planets", "milky_way", "zodiacal", "airglow" and "light_pollution". They are the keys of ``layers`` in ``render``.
+    #[getter]
+    fn layer_names(&self) -> Vec<&'static str> {
+        self.inner.layers_by(self.model).into_iter().map(Layer::name).collect()
+    }
+
+    /// Sun, Moon and planets from Mercury to Neptune, above and below the horizon, the Moon as a ``Moon``; of a Sun that is put, that Sun alone.
+    fn bodies(&self, py: Python<'_>) -> PyResult<Vec<Py<Body>>> {
+        let body = |inner: &ephemeris::Body| Py::new(py, Body { inner: inner.clone() });
+        let Some(bodies) = self.inner.bodies_of_place() else { return Ok(vec![body(self.inner.sun())?]) };
+        let moon = Moon::new(py, &bodies.moon)?.into_bound(py).into_super().unbind();
+        let mut all = vec![body(&bodies.sun)?, moon];
+        for planet in &bodies.planets {
+            all.push(body(&planet.body)?);
+        }
+        Ok(all)
     }
 
     /// Sunrise, sunset, twilights and noon on the local date of this sky's time.
     fn sun_events(&self, py: Python<'_>) -> PyResult<SunEvents> {
-        let (Some(place), Some(time)) = (self.inner.place(), self.inner.time()) else {
-            return Err(InputError::new_err("sky = with_sun(...): must be a sky with place and time"));
-        };
+        let (place, time) = self.place_and_time()?;
         let inner = py.detach(|| ephemeris::sun_events(place, time))?;
         Ok(SunEvents { inner })
     }
 
-    /// Spectral radiance of sky and ground without the Sun's disc, shape (N, W). [W m-2 sr-1 nm-1]
+    /// When a body rises, stands highest and sets on the local date of this sky's time.
+    ///
+    /// Parameters
+    /// ----------
+    /// name
+    ///     Name of one of ``bodies()``, such as "Moon" or "Venus", in any case.
+    fn rise_and_set(&self, py: Python<'_>, name: &str) -> PyResult<RiseAndSet> {
+        let (place, time) = self.place_and_time()?;
+        let target = name.parse()?;
+        let inner = py.detach(|| ephemeris::rise_and_set(target, place, time))?;
+        Ok(RiseAndSet { inner })
+    }
+
+    /// The next four phases of the Moon after this sky's time, in the order of their dates: name ("new", "first quarter", "full", "last quarter") and
+    /// when, the same for all places.
+    fn moon_phases<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
+        let (_, time) = self.place_and_time()?;
+        let phases = py.detach(|| next_moon_phases(time))?;
+        phases.iter().map(|(phase, time)| Ok((phase.name(), datetime(py, time)?))).collect()
+    }
+
+    /// How the Moon stands before the Sun; None if it does not.
+    #[getter]
+    fn solar_eclipse(&self) -> Option<SolarEclipse> {
+        let geometry = self.inner.bodies_of_place()?.solar_eclipse()?;
+        Some(SolarEclipse { geometry, light: *self.inner.solar_eclipse()? })
+    }
+
+    /// How the Moon stands in the Earth's shadow; None if no part of it does.
+    #[getter]
+    fn lunar_eclipse(&self) -> Option<LunarEclipse> {
+        Some(LunarEclipse { inner: self.inner.bodies_of_place()?.lunar_eclipse()? })
+    }
+
+    /// Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
     ///
     /// Parameters
     /// ----------
@@ -191,7 +254,7 @@ impl Sky {
         PyArray1::from_vec(py, radiance).reshape(shape)
     }
 
-    /// Stokes parameters I, Q, U of sky and ground without the Sun's disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+    /// Stokes parameters I, Q, U of sky and ground by the light of the Sun, without its disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
     ///
     /// Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
     /// as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
@@ -220,7 +283,7 @@ impl Sky {
         PyArray1::from_vec(py, stokes).reshape(shape)
     }
 
-    /// Spectral irradiance of Sun and sky. [W m-2 nm-1]
+    /// Spectral irradiance by the light of the Sun: of its disc and of the sky. Moonlight and the other lights of the night are not in it. [W m-2 nm-1]
     ///
     /// Parameters
     /// ----------
@@ -240,7 +303,7 @@ impl Sky {
         Ok(Irradiance::new(py, irradiance))
     }
 
-    /// Illuminance of Sun and sky. [lx]
+    /// Illuminance of Sun, Moon and sky, with all that shines in it. [lx]
     #[pyo3(signature = (*, progress = None))]
     fn illuminance(&self, py: Python<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Illuminance> {
         let inner = work::run(py, progress, |progress| self.inner.illuminance(progress))?;
@@ -289,11 +352,13 @@ impl Sky {
     /// tolerance
     ///     Relative error that interpolated directions may have, 0.0001 to 0.5: light is gathered in as many directions as that needs. None: in as
     ///     many as the quality says.
+    /// layers
+    ///     Factors on the light of layers by their names, 0 (left out) to 1e9, such as ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled.
     #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
         scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None,
-        progress = None))]
+        layers = None, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render(
         &self,
@@ -309,9 +374,10 @@ impl Sky {
         gamut: &str,
         polarising_filter: Option<PyRef<'_, PolarisingFilter>>,
         tolerance: Option<f64>,
+        layers: Option<&Bound<'_, PyMapping>>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Probe> {
-        let light = self.light_options(polarising_filter, tolerance)?;
+        let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
         let rendered =
             work::run(py, progress, |progress| probe::render(&self.inner.light_by(&light, progress)?, &settings, progress))?;
@@ -325,15 +391,17 @@ impl Sky {
     /// ----------
     /// path
     ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance
+    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
     ///     As for ``render``.
+    /// separate_layers
+    ///     Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
     /// half, exposure_stops
     ///     As for ``Probe.save``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
     #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
-        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, half = None,
-        exposure_stops = 0.0, progress = None))]
+        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, layers = None,
+        separate_layers = false, half = None, exposure_stops = 0.0, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render_to_file(
         &self,
@@ -350,14 +418,19 @@ impl Sky {
         gamut: &str,
         polarising_filter: Option<PyRef<'_, PolarisingFilter>>,
         tolerance: Option<f64>,
+        layers: Option<&Bound<'_, PyMapping>>,
+        separate_layers: bool,
         half: Option<&Bound<'_, PyAny>>,
         exposure_stops: f64,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let light = self.light_options(polarising_filter, tolerance)?;
+        let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, layers: false };
+        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, layers: separate_layers };
         check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
+        if separate_layers && Format::of(&path)? != Format::Exr {
+            return Err(InputError::new_err("separate_layers = True: must be False for a file that is not .exr"));
+        }
         check_output(&path)?;
         let metadata = describe(&self.inner, self.sun_model, &light, &settings);
         work::run(py, progress, |progress| {
@@ -385,7 +458,7 @@ impl Sky {
         tolerance: Option<f64>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let light = self.light_options(polarising_filter, tolerance)?;
+        let light = self.light_options(polarising_filter, tolerance, None)?;
         if light.model != Model::Scattering {
             return Err(InputError::new_err(format!(
                 "model = {:?}: must be \"scattering\" for a sample map",
@@ -414,65 +487,26 @@ impl Sky {
 }
 
 impl Sky {
-    fn light_options(&self, filter: Option<PyRef<'_, PolarisingFilter>>, tolerance: Option<f64>) -> PyResult<LightOptions> {
+    fn light_options(
+        &self,
+        filter: Option<PyRef<'_, PolarisingFilter>>,
+        tolerance: Option<f64>,
+        layers: Option<&Bound<'_, PyMapping>>,
+    ) -> PyResult<LightOptions> {
         let options = LightOptions {
             model: self.model,
             polarising_filter: filter.map(|filter| filter.inner),
             tolerance,
-            ..Default::default()
+            layers: layers.map(layer_scales).transpose()?.unwrap_or_default(),
         };
         options.validate()?;
         Ok(options)
     }
-}
 
-/// The settings that names and a number ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
-fn probe_settings(width: i64, layout: [&str; 4], sun_disc: bool, colour: [&str; 3]) -> PyResult<ProbeSettings> {
-    let ([projection, rows, extent, ground], [scale, color_space, gamut]) = (layout, colour);
-    let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
-    let settings = ProbeSettings {
-        width: check_range("width", width as f64, low, high, "pixels")? as usize,
-        projection: projection.parse()?,
-        rows: rows.parse()?,
-        extent: extent.parse()?,
-        ground: ground.parse()?,
-        sun_disc,
-        scale: scale.parse()?,
-        color_space: color_space.parse()?,
-        gamut: json::word("gamut", gamut)?,
-    };
-    settings.validate()?;
-    Ok(settings)
-}
-
-/// A time as text: a `str` as it is, an aware `datetime` in ISO 8601.
-fn time_text(time: &Bound<'_, PyAny>) -> PyResult<String> {
-    if let Ok(text) = time.cast::<PyString>() {
-        return Ok(text.to_string());
+    fn place_and_time(&self) -> PyResult<(&Place, &Time)> {
+        match (self.inner.place(), self.inner.time()) {
+            (Some(place), Some(time)) => Ok((place, time)),
+            _ => Err(InputError::new_err("sky = with_sun(...): must be a sky with place and time")),
+        }
     }
-    let wrong = |allowed: &str| InputError::new_err(format!("time = {time}: must be {allowed}"));
-    if !time.is_instance(&time.py().import("datetime")?.getattr("datetime")?)? {
-        return Err(wrong("a text or a datetime.datetime"));
-    }
-    if time.call_method0("utcoffset")?.is_none() {
-        return Err(wrong("a datetime with a time zone (tzinfo); a local time of the place is given as text"));
-    }
-    time.call_method0("isoformat")?.extract()
-}
-
-fn unit_vectors(directions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
-    let directions = arrays::triples("directions", directions)?;
-    directions
-        .into_iter()
-        .enumerate()
-        .map(|(index, direction)| {
-            let direction = DVec3::from(direction);
-            // Written so that not-a-number fails.
-            if (direction.length() - 1.0).abs() <= UNIT_TOLERANCE {
-                return Ok(direction.normalize());
-            }
-            let DVec3 { x, y, z } = direction;
-            Err(InputError::new_err(format!("directions[{index}] = ({x}, {y}, {z}): must be a vector of length 1")))
-        })
-        .collect()
 }

@@ -1,0 +1,74 @@
+//! Arguments of `Sky` as the library takes them.
+
+use super::arrays;
+use super::errors::InputError;
+use crate::error::check_range;
+use crate::io::json;
+use crate::probe::{self, ProbeSettings};
+use crate::sky::{Layer, LayerScales};
+use glam::DVec3;
+use pyo3::prelude::*;
+use pyo3::types::{PyMapping, PyString};
+
+/// Largest departure of a direction's length from 1: what single precision leaves, with room.
+const UNIT_TOLERANCE: f64 = 1e-4;
+
+/// Factors by the names of layers.
+pub fn layer_scales(layers: &Bound<'_, PyMapping>) -> PyResult<LayerScales> {
+    let factor = |item: Bound<'_, PyAny>| {
+        let (name, factor): (String, f64) = item.extract()?;
+        Ok((name.parse::<Layer>()?, factor))
+    };
+    Ok(LayerScales(layers.items()?.iter().map(factor).collect::<PyResult<_>>()?))
+}
+
+/// The settings that names and a number ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
+pub fn probe_settings(width: i64, layout: [&str; 4], sun_disc: bool, colour: [&str; 3]) -> PyResult<ProbeSettings> {
+    let ([projection, rows, extent, ground], [scale, color_space, gamut]) = (layout, colour);
+    let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
+    let settings = ProbeSettings {
+        width: check_range("width", width as f64, low, high, "pixels")? as usize,
+        projection: projection.parse()?,
+        rows: rows.parse()?,
+        extent: extent.parse()?,
+        ground: ground.parse()?,
+        sun_disc,
+        scale: scale.parse()?,
+        color_space: color_space.parse()?,
+        gamut: json::word("gamut", gamut)?,
+    };
+    settings.validate()?;
+    Ok(settings)
+}
+
+/// A time as text: a `str` as it is, an aware `datetime` in ISO 8601.
+pub fn time_text(time: &Bound<'_, PyAny>) -> PyResult<String> {
+    if let Ok(text) = time.cast::<PyString>() {
+        return Ok(text.to_string());
+    }
+    let wrong = |allowed: &str| InputError::new_err(format!("time = {time}: must be {allowed}"));
+    if !time.is_instance(&time.py().import("datetime")?.getattr("datetime")?)? {
+        return Err(wrong("a text or a datetime.datetime"));
+    }
+    if time.call_method0("utcoffset")?.is_none() {
+        return Err(wrong("a datetime with a time zone (tzinfo); a local time of the place is given as text"));
+    }
+    time.call_method0("isoformat")?.extract()
+}
+
+pub fn unit_vectors(directions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
+    let directions = arrays::triples("directions", directions)?;
+    directions
+        .into_iter()
+        .enumerate()
+        .map(|(index, direction)| {
+            let direction = DVec3::from(direction);
+            // Written so that not-a-number fails.
+            if (direction.length() - 1.0).abs() <= UNIT_TOLERANCE {
+                return Ok(direction.normalize());
+            }
+            let DVec3 { x, y, z } = direction;
+            Err(InputError::new_err(format!("directions[{index}] = ({x}, {y}, {z}): must be a vector of length 1")))
+        })
+        .collect()
+}
