@@ -4,6 +4,7 @@
 
 mod air_options;
 mod info;
+mod night_options;
 mod options;
 mod render;
 mod terminal;
@@ -26,7 +27,7 @@ struct Cli {
 enum Command {
     /// Compute a light probe and write it as EXR, HDR or PNG.
     Render(Box<render::Options>),
-    /// Say where the Sun is, when it rises and sets, and how much light arrives.
+    /// Say where Sun, Moon and planets are, when they rise and set, and how much light arrives.
     Info(Box<info::Options>),
 }
 

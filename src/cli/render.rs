@@ -1,12 +1,13 @@
 //! `skyprobe render`: from a place, a time and an air to files.
 
 use super::air_options::AirOptions;
+use super::night_options::NightCommandOptions;
 use super::options::{ConfigOptions, PlaceOptions};
 use super::{say, terminal};
 use crate::error::{Error, Result, check_range};
-use crate::io::{Config, SampleMap, check_output, describe, json, render_to_files};
+use crate::io::{Config, Format, SampleMap, check_output, describe, json, render_to_files};
 use crate::probe::{MAX_WIDTH, MIN_WIDTH};
-use crate::sky::{Model, PolarisingFilter};
+use crate::sky::{Layer, Model, PolarisingFilter};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,6 +28,14 @@ Examples:
     skyprobe render --sun-altitude 30 --sun-azimuth 180 --rows corner --scale mitsuba -o sky.exr
   The same sky through a polarising filter that is held towards the east, 90 degrees from the Sun:
     skyprobe render --sun-altitude 30 --sun-azimuth 180 --polarising-filter 1 --filter-towards 20,90 -o dark.png
+  A landscape under the full Moon; only the stars, the Moon and the Milky Way of the same night, each in channels of its own:
+    skyprobe render --lat 55.71 --lon 13.19 --time 2005-01-25T00:30 --no-sun-disc -o moonlight.exr
+    skyprobe render --lat 55.71 --lon 13.19 --time 2005-01-25T00:30 --layer sky=0 --layer zodiacal=0 --layer airglow=0 \\
+      --separate-layers -o layers.exr
+  The Milky Way over Chile without the Moon, at 8k, stars twice as bright as they are:
+    skyprobe render --lat -24.63 --lon -70.40 --elevation 2635 --time 2005-07-06T00:00 --layer stars=2 --width 8192 -o paranal.exr
+  The same night over the lit edge of a town:
+    skyprobe render --lat -24.63 --lon -70.40 --time 2005-07-06T00:00 --bortle 6 --led-share 0.2 -o town.exr
   Write a configuration, change it by hand, render it:
     skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 -o lund.exr --dump-config > lund.json
     skyprobe render --config lund.json --width 512
@@ -44,10 +53,12 @@ pub struct Options {
     #[command(flatten)]
     air: AirOptions,
     #[command(flatten)]
+    night: NightCommandOptions,
+    #[command(flatten)]
     image: ImageOptions,
     /// By which model the sky is rendered: scattering (solved light: day, twilight, night) preetham (the analytic sky of 1999, by day at
     /// turbidities from 2 to 10), thesis or thesis_single (ray marching with random steps, light scattered at most twice or once: noisy, for small
-    /// images). Default: scattering.
+    /// images). Only scattering knows the night. Default: scattering.
     #[arg(long, value_name = "NAME", help_heading = IMAGE)]
     model: Option<String>,
     /// See the sky through a polarising filter of this strength, 0 to 1 (ideal), exposed so that unpolarised light stays as it is.
@@ -62,6 +73,14 @@ pub struct Options {
     /// Relative error that interpolated directions may have, 0.0001 to 0.5. Default: as many directions as the quality says.
     #[arg(long, value_name = "SHARE", help_heading = IMAGE)]
     tolerance: Option<f64>,
+    /// Multiply the light of a layer by a factor, 0 (left out) to 1e9, as in stars=2. May be given several times.
+    ///
+    /// Layers: sky (light scattered by the air, and the ground), sun, moon, stars, planets, milky_way, zodiacal, airglow, light_pollution.
+    #[arg(long, value_name = "NAME=FACTOR", help_heading = IMAGE)]
+    layer: Vec<String>,
+    /// Write each layer into EXR files beside their sum, in channels such as stars.R.
+    #[arg(long, help_heading = OUTPUT)]
+    separate_layers: bool,
     /// Write a picture (.png) of the directions in which light was gathered.
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     sample_map: Option<PathBuf>,
@@ -158,6 +177,7 @@ impl Options {
         let mut config = self.config.read()?;
         self.place.apply(&mut config)?;
         self.air.apply(&mut config)?;
+        self.night.apply(&mut config.night)?;
         self.image.apply(&mut config)?;
         if !self.output.is_empty() {
             config.output.clone_from(&self.output);
@@ -173,6 +193,11 @@ impl Options {
         }
         self.apply_filter(&mut config.light.polarising_filter)?;
         config.light.tolerance = self.tolerance.or(config.light.tolerance);
+        for text in &self.layer {
+            let (layer, factor) = layer_and_factor(text)?;
+            config.light.layers.0.insert(layer, factor);
+        }
+        config.file.layers |= self.separate_layers;
         if let Some(name) = &self.half {
             config.file.half = name.parse()?;
         }
@@ -227,6 +252,10 @@ pub fn run(options: &Options) -> Result<()> {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
     config.output.iter().chain(&options.sample_map).try_for_each(|path| check_target(path))?;
+    let is_exr = |path: &PathBuf| Format::of(path).is_ok_and(|format| format == Format::Exr);
+    if options.separate_layers && !config.output.iter().any(is_exr) {
+        return Err(Error::input("separate_layers", "true", "left out without an output that ends in .exr"));
+    }
     terminal::with_progress(|progress| {
         if let Some(path) = &options.sample_map {
             let light = sky.filtered_light(config.light.polarising_filter.as_ref(), config.light.tolerance, progress)?;
@@ -244,6 +273,14 @@ pub fn run(options: &Options) -> Result<()> {
         say(&format!("{}: samples", path.display()))?;
     }
     config.output.iter().try_for_each(|path| say(&format!("{}: {width} x {height}, {sun}", path.display())))
+}
+
+/// Reads a text such as `stars=2`.
+fn layer_and_factor(text: &str) -> Result<(Layer, f64)> {
+    let (name, factor) = text.split_once('=').unwrap_or((text, ""));
+    let layer: Layer = name.trim().parse()?;
+    let factor = factor.trim().parse();
+    Ok((layer, factor.map_err(|_| Error::input("layer", format!("{text:?}"), "NAME=FACTOR, such as stars=2"))?))
 }
 
 /// Before any work a path that cannot be written to is wrong input, not a failure of the disk.
