@@ -72,7 +72,7 @@ def test_the_example_of_the_documentation_runs(tmp_path: pathlib.Path) -> None:
     assert sky.sun.name == "Sun"
     assert 57.0 < sky.sun.altitude_deg < sky.sun.apparent_altitude_deg < 58.0
     assert 170.0 < sky.sun.azimuth_deg < 180.0
-    assert [body.name for body in sky.bodies()] == ["Sun"]
+    assert [body.name for body in sky.bodies()][:3] == ["Sun", "Moon", "Mercury"]
     probe = sky.render(width=128, scale="blender", color_space="lin_rec709", sun_disc=True, progress=lambda stage, fraction: None)
     assert probe.pixels.shape == (64, 128, 3)
     for name in ["sky.exr", "sky.hdr", "sky.png"]:
@@ -102,7 +102,8 @@ def test_the_parts_of_the_light_belong_together(sky: sp.Sky) -> None:
     irradiance = sky.irradiance(WAVELENGTHS_NM)
     numpy.testing.assert_allclose(irradiance.direct_horizontal, irradiance.direct_normal * sine, rtol=2e-3)
     light = sky.illuminance()
-    assert light.global_horizontal_lx == pytest.approx(light.direct_horizontal_lx + light.diffuse_horizontal_lx)
+    parts = light.direct_horizontal_lx + light.moon_horizontal_lx + light.diffuse_horizontal_lx
+    assert light.global_horizontal_lx == pytest.approx(parts)
     # Y of the Sun in the three scales is the direct illuminance, by definition of the scales.
     assert sky.sun_irradiance_rgb(scale="luminance", color_space="xyz")[1] == pytest.approx(light.direct_normal_lx, rel=1e-3)
     assert sky.sun_irradiance_rgb(scale="blender", color_space="xyz")[1] * 683.0 == pytest.approx(light.direct_normal_lx, rel=1e-3)

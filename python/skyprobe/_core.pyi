@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias, final
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import disjoint_base
 
 _Quality: TypeAlias = Literal["draft", "standard", "high", "reference"]
 _Preset: TypeAlias = Literal[
@@ -32,9 +33,6 @@ _Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea",
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
 _Model: TypeAlias = Literal["scattering", "preetham", "thesis", "thesis_single"]
-_LayerName: TypeAlias = Literal[
-    "sky", "sun", "moon", "stars", "planets", "milky_way", "zodiacal", "airglow", "light_pollution"
-]
 _PhaseName: TypeAlias = Literal["new", "first quarter", "full", "last quarter"]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
@@ -263,6 +261,7 @@ class Atmosphere:
     def wavelengths_nm(self) -> NDArray[numpy.float64]:
         """Wavelengths of the optical profile, shape (W,). [nm]"""
 
+@disjoint_base
 class Body:
     """A body as it stands in the sky."""
 
@@ -727,7 +726,7 @@ class Sky:
         """What of the night is in this sky; None for a sky without place and time."""
 
     @property
-    def layer_names(self) -> list[_LayerName]:
+    def layer_names(self) -> list[str]:
         """Names of the layers that the light of this sky is made of, of "sky" (light scattered by the air, and the ground), "sun", "moon", "stars",
         "planets", "milky_way", "zodiacal", "airglow" and "light_pollution". They are the keys of ``layers`` in ``render``.
         """
@@ -831,7 +830,7 @@ class Sky:
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
-        layers: Mapping[_LayerName, float] | None = None,
+        layers: Mapping[str, float] | None = None,
         progress: _Progress | None = None,
     ) -> Probe:
         """An image of the light from all directions.
@@ -883,7 +882,7 @@ class Sky:
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
-        layers: Mapping[_LayerName, float] | None = None,
+        layers: Mapping[str, float] | None = None,
         separate_layers: bool = False,
         half: bool | Literal["off", "refuse", "scale"] | None = None,
         exposure_stops: float = 0.0,
