@@ -52,6 +52,21 @@ fn wrong_input_is_one_line_and_exit_code_2_and_leaves_nothing() {
         (with(&SUN, &["--filter-angle", "20", "-o", "a.exr"]), "polarising_filter = nothing: must be given"),
         (with(&SUN, &["--polarising-filter", "1", "--filter-towards", "20", "-o", "a.exr"]), "filter_towards = 1 numbers"),
         (with(&SUN, &["--no-polarisation", "--polarising-filter", "1", "-o", "a.exr"]), "polarisation = false: must be true"),
+        (with(&SUN, &["--night", "dusk", "-o", "a.exr"]), "night.when = \"dusk\": must be auto, always or never"),
+        (with(&SUN, &["--star-limit", "9", "-o", "a.exr"]), "night.star_limit = 9: must be a number from -2 to 8.5"),
+        (with(&SUN, &["--solar-flux", "nan", "-o", "a.exr"]), "night.solar_flux_sfu = NaN: must be a number from 60 to 300"),
+        (
+            with(&SUN, &["--zenith-brightness", "25", "-o", "a.exr"]),
+            "night.zenith_brightness = 25: must be a number from 15 to 22",
+        ),
+        (with(&SUN, &["--bortle", "10", "-o", "a.exr"]), "night.bortle = 10: must be a whole number from 1 to 9"),
+        (with(&SUN, &["--bortle", "-300", "-o", "a.exr"]), "night.bortle = -300: must be a whole number from 1 to 9"),
+        (with(&SUN, &["--bortle", "3", "--zenith-brightness", "20", "-o", "a.exr"]), "cannot be used with"),
+        (with(&SUN, &["--led-share", "2", "-o", "a.exr"]), "night.led_share = 2: must be a number from 0 to 1"),
+        (with(&SUN, &["--layer", "comets=1", "-o", "a.exr"]), "layers = \"comets\": must be sky, sun, moon, stars"),
+        (with(&SUN, &["--layer", "stars", "-o", "a.exr"]), "layer = \"stars\": must be NAME=FACTOR, such as stars=2"),
+        (with(&SUN, &["--layer", "stars=-1", "-o", "a.exr"]), "layers.stars = -1: must be a number from 0 to"),
+        (with(&SUN, &["--separate-layers", "-o", "a.hdr"]), "separate_layers = true: must be left out without an output"),
         (with(&SUN, &["--tolerance", "0", "-o", "a.exr"]), "tolerance = 0: must be a number from 0.0001 to 0.5"),
         (with(&SUN, &["--sample-map", "a.exr"]), "sample_map = a.exr: must be a file name that ends in .png"),
         (with(&SUN, &["--sample-map", "nowhere/a.png"]), "nowhere/a.png: must be"),
@@ -273,4 +288,116 @@ fn the_analytic_sky_is_rendered_by_day_and_refused_by_night() {
         assert!(text(&refused.stderr).contains(part), "{}", text(&refused.stderr));
     }
     assert_eq!(files(folder.path()), ["sky.exr"]);
+}
+
+/// What `info --json` says of a sky over a place.
+fn told(folder: &Path, more: &[&str]) -> serde_json::Value {
+    let output = tool(folder, &[&["info", "--json", "--quality", "draft"], more].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn info_tells_of_the_moon_in_the_shadow_of_the_earth() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = ["--lat", "19.8207", "--lon", "-155.4681", "--elevation", "4205", "--time", "2018-01-31T13:29:50Z"];
+    let report = told(folder.path(), &[&place[..], &["--zone", "Pacific/Honolulu"]].concat());
+    // checked against: NASA's Five Millennium Catalog (Espenak & Meeus 2009): umbral magnitude 1.3155, penumbral 2.2941.
+    let eclipse = &report["lunar_eclipse"];
+    assert_eq!(eclipse["kind"], "total");
+    assert!((eclipse["umbral_magnitude"].as_f64().unwrap() - 1.3155).abs() < 0.003, "{eclipse}");
+    assert!((eclipse["penumbral_magnitude"].as_f64().unwrap() - 2.2941).abs() < 0.003, "{eclipse}");
+    assert!(report["solar_eclipse"].is_null());
+    let up: Vec<&str> = report["bodies"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|body| body["above_horizon"].as_bool().unwrap())
+        .map(|body| body["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(up, ["Moon", "Mars", "Jupiter"]);
+    assert_eq!(report["bodies"].as_array().unwrap().len(), 9);
+    // The eclipsed Moon gives less light than the sky does.
+    let lx = |kind: &str| report["illuminance_lx"][kind].as_f64().unwrap();
+    assert!(0.0 < lx("moon_horizontal") && lx("moon_horizontal") < 0.1 * lx("diffuse_horizontal"), "{report}");
+    let sum = lx("direct_horizontal") + lx("moon_horizontal") + lx("diffuse_horizontal");
+    assert!((lx("global_horizontal") / sum - 1.0).abs() < 1e-12, "{report}");
+    let words = text(&tool(folder.path(), &[&["info", "--no-light"], &place[..]].concat()).stdout);
+    assert!(words.contains("eclipse of the Moon total, magnitude 1.316 in the umbra, 2.295 in the penumbra\n"), "{words}");
+    for part in
+        ["\nabove the horizon ", "\n  Jupiter ", "\nMoon's next phases  last quarter  2018-02-07 ", "\nastronomical dawn "]
+    {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    assert!(!words.contains("Saturn") && !words.contains("\n  Sun "), "{words}");
+}
+
+#[test]
+fn info_tells_of_the_moon_s_day_and_phases() {
+    let folder = tempfile::tempdir().unwrap();
+    let lund = ["--lat", "55.7047", "--lon", "13.191", "--no-light", "--time"];
+    let moon = &told(folder.path(), &[&lund[..], &["2005-06-21T12:00"]].concat())["moon"];
+    // checked against: Skyfield 1.55 with DE421 (tests/reference/ephemeris_rise_and_set.csv): 20:14:43 and 00:48:11 UTC.
+    assert_eq!((&moon["rise"], &moon["set"]), (&"2005-06-21T22:14:43+02:00".into(), &"2005-06-21T02:48:11+02:00".into()));
+    assert!(moon["transit"].is_null());
+    let report = told(folder.path(), &[&lund[..], &["2005-01-02T00:00Z"]].concat());
+    // checked against: the same, ephemeris_moon_phases.csv.
+    let next = |phase: &str, time: &str| serde_json::json!({"phase": phase, "time": time});
+    let expected = [
+        next("last quarter", "2005-01-03T17:45:41+00:00"),
+        next("new", "2005-01-10T12:02:49+00:00"),
+        next("first quarter", "2005-01-17T06:57:29+00:00"),
+        next("full", "2005-01-25T10:32:21+00:00"),
+    ];
+    assert_eq!(report["moon"]["next_phases"], serde_json::Value::from(expected.to_vec()));
+    assert_eq!(report["moon"]["phase"], "waning gibbous");
+    // checked against: shared reference, case C05: the crescent over Lund.
+    let eclipse = &told(folder.path(), &[&lund[..], &["1999-08-11T12:45"]].concat())["solar_eclipse"];
+    assert_eq!(eclipse["kind"], "partial");
+    assert!((eclipse["separation_deg"].as_f64().unwrap() - 0.113_993).abs() < 2e-4, "{eclipse}");
+}
+
+#[test]
+fn info_counts_moonlight_and_towns() {
+    let folder = tempfile::tempdir().unwrap();
+    let full = ["--lat", "55.71", "--lon", "13.19", "--time", "2005-01-25T00:30"];
+    let lx =
+        |more: &[&str], kind: &str| told(folder.path(), &[&full[..], more].concat())["illuminance_lx"][kind].as_f64().unwrap();
+    // checked against: full Moon on the ground, 0.2 to 0.32 lx near the zenith; here at 58 degrees.
+    assert!((0.15..0.32).contains(&lx(&[], "global_horizontal")));
+    assert!(lx(&[], "moon_normal") > lx(&[], "moon_horizontal"));
+    assert_eq!(lx(&["--night", "never"], "moon_normal"), 0.0);
+    assert!(lx(&["--bortle", "9"], "diffuse_horizontal") > 2.0 * lx(&[], "diffuse_horizontal"));
+    let words = text(&tool(folder.path(), &[&["info", "--quality", "draft"], &full[..]].concat()).stdout);
+    assert!(words.contains(" facing the Moon\n"), "{words}");
+}
+
+#[test]
+fn the_layers_of_a_night_are_scaled_and_written_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let night = ["--lat", "-24.63", "--lon", "-70.40", "--time", "2005-07-06T00:00", "--quality", "draft", "--width", "128"];
+    let more = ["--bortle", "3", "--star-limit", "6", "--layer", "airglow=0", "--layer", "stars=3", "--separate-layers"];
+    let made = tool(folder.path(), &[&["render"], &night[..], &more, &["-o", "layers.exr", "-o", "layers.png"]].concat());
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    let image = exr::prelude::read_all_flat_layers_from_file(folder.path().join("layers.exr")).unwrap();
+    let names: Vec<String> = image.layer_data[0].channel_data.list.iter().map(|channel| channel.name.to_string()).collect();
+    for layer in ["sky", "sun", "moon", "stars", "planets", "milky_way", "zodiacal", "light_pollution"] {
+        assert!(names.contains(&format!("{layer}.G")), "{layer}: {names:?}");
+    }
+    assert_eq!(names.len(), 3 * 9, "{names:?}");
+    let layered = skyprobe::io::exr::read(folder.path().join("layers.exr")).unwrap();
+    let config = &layered.attributes["skyprobe.config"];
+    for part in [r#""layers":{"stars":3.0,"airglow":0.0}"#, r#""bortle":3"#, r#""star_limit":6.0"#, r#""when":"auto""#] {
+        assert!(config.contains(part), "{part}: {config}");
+    }
+    // The header's configuration makes the picture again, as a whole.
+    std::fs::write(folder.path().join("night.json"), config).unwrap();
+    assert!(tool(folder.path(), &["render", "--config", "night.json", "-o", "again.exr"]).status.success());
+    let again = skyprobe::io::exr::read(folder.path().join("again.exr")).unwrap();
+    let total = |picture: &skyprobe::io::exr::Picture| picture.pixels.iter().map(|&value| f64::from(value)).sum::<f64>();
+    assert!((total(&again) / total(&layered) - 1.0).abs() < 1e-3);
+    // One way to say the light of towns takes the place of the other.
+    let dump = tool(folder.path(), &["render", "--config", "night.json", "--zenith-brightness", "20", "--dump-config"]);
+    let config: serde_json::Value = serde_json::from_slice(&dump.stdout).unwrap();
+    assert_eq!((&config["night"]["zenith_brightness"], &config["night"]["bortle"]), (&20.0.into(), &serde_json::Value::Null));
 }
