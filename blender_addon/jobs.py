@@ -23,6 +23,7 @@ class ProbeRequest:
     path: str  # file to write, absolute
     pack: bool  # move the file into the .blend afterwards
     polarising_filter: dict | None = None  # keywords of skyprobe.PolarisingFilter
+    night: dict | None = None  # keywords of skyprobe.Night
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,8 @@ def forget_atmosphere():
 
 def compute(request, progress):
     """Compute and write the probe of `request`; `progress(stage, fraction)` returns False to cancel."""
-    sky = skyprobe.Sky(**request.place, time=request.time, atmosphere=atmosphere(request.air))
+    night = skyprobe.Night(**(request.night or {}))
+    sky = skyprobe.Sky(**request.place, time=request.time, atmosphere=atmosphere(request.air), night=night)
     return render(sky, request, progress)
 
 

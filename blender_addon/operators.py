@@ -28,6 +28,7 @@ def request_of(scene):
         path=os.path.join(_folder(settings), name),
         pack=settings.storage == "PACKED",
         polarising_filter=properties.polarising_filter(settings),
+        night=properties.night(settings),
     )
 
 

@@ -72,6 +72,15 @@ def _draw_air_details(layout, settings):
         value.prop(settings, name, text="")
 
 
+def _draw_night(layout, settings):
+    layout.prop(settings, "night_when")
+    column = layout.column()
+    column.active = settings.night_when != "never"
+    column.prop(settings, "star_limit")
+    column.prop(settings, "light_pollution")
+    column.prop(settings, "solar_flux")
+
+
 def _draw_filter(layout, settings):
     layout.prop(settings, "filter_mode")
     if settings.filter_mode == "NONE":
@@ -99,6 +108,7 @@ SECTIONS = (
     ("time", "Time", _draw_time, False),
     ("air", "Air", _draw_air, False),
     ("air_details", "Air in Detail", _draw_air_details, True),
+    ("night", "Night", _draw_night, True),
     ("filter", "Polarising Filter", _draw_filter, True),
     ("probe", "Probe", _draw_probe, False),
 )

@@ -58,6 +58,20 @@ GROUNDS = (
     ("city", "City", "Roofs, streets, some trees"),
     ("asphalt", "Asphalt", "Worn asphalt"),
 )
+# Bortle's classes by their number.
+NO_TOWNS = "none"
+TOWNS = (
+    (NO_TOWNS, "None", "A natural sky without artificial light"),
+    ("1", "1: Excellent Dark Site", "As dark as it gets: the Milky Way casts shadows"),
+    ("2", "2: Truly Dark Site", "Clouds are black holes in the sky"),
+    ("3", "3: Rural", "A glow at the horizon"),
+    ("4", "4: Rural, Near Suburbs", "Domes of light over towns; the Milky Way still has structure"),
+    ("5", "5: Suburban", "Only hints of the Milky Way at the horizon"),
+    ("6", "6: Bright Suburban", "The Milky Way shows at the zenith only"),
+    ("7", "7: Suburbs and City", "The whole sky is grey; hardly a trace of the Milky Way"),
+    ("8", "8: City", "The sky glows; one can read headlines by it"),
+    ("9", "9: Inner City", "Only Moon, planets and the brightest stars are left"),
+)
 # Values of the air that a switch takes from the preset.
 OPTIONAL_AIR = (
     ("use_humidity", "relative_humidity"),
@@ -227,6 +241,43 @@ class SkyprobeSettings(bpy.types.PropertyGroup):
         name="Ground", description="What the land around reflects", items=GROUNDS, default=OF_PRESET
     )
 
+    night_when: EnumProperty(
+        name="Show",
+        description="When Moon, planets, stars and the other lights of the night are in the sky",
+        items=(
+            ("auto", "As It Gets Dark", "Moon and planets always; moonlight, stars and diffuse light while the Sun is below the horizon"),
+            ("always", "Always", "All of them by day too, where they are less than a thousandth of the light"),
+            ("never", "Never", "The light of the Sun only"),
+        ),
+        default="auto",
+    )
+    star_limit: FloatProperty(
+        name="Star Limit",
+        description="Stars to this magnitude are drawn one by one, fainter ones as part of the Milky Way. A larger number is fainter: 6.5 is what the eye can see",
+        min=-2.0,
+        max=8.5,
+        default=8.5,
+        precision=1,
+        step=50,
+    )
+    light_pollution: EnumProperty(
+        name="Town Light",
+        description="How much artificial light the air scatters, on Bortle's scale of dark skies",
+        items=TOWNS,
+        default=NO_TOWNS,
+    )
+    solar_flux: FloatProperty(
+        name="Airglow (sfu)",
+        description="How strongly the upper air glows, by the Sun's radio flux at 10.7 cm in solar flux units: "
+        "70 at the minimum of its activity, 130 on average, 200 at the maximum",
+        min=60.0,
+        max=300.0,
+        soft_max=200.0,
+        default=130.0,
+        precision=0,
+        step=1000,
+    )
+
     width: IntProperty(
         name="Width",
         description="Width of the probe; its height is half of that",
@@ -354,6 +405,18 @@ def polarising_filter(settings):
     keywords = {"strength": _as_typed(settings.filter_strength), "angle_deg": _degrees(settings.filter_angle)}
     if settings.filter_mode == "HELD":
         keywords["held_towards_deg"] = (_degrees(settings.filter_altitude), _degrees(settings.filter_azimuth))
+    return keywords
+
+
+def night(settings):
+    """Return the keywords of skyprobe.Night."""
+    keywords = {
+        "when": settings.night_when,
+        "star_limit": _as_typed(settings.star_limit),
+        "solar_flux_sfu": _as_typed(settings.solar_flux),
+    }
+    if settings.light_pollution != NO_TOWNS:
+        keywords["bortle"] = int(settings.light_pollution)
     return keywords
 
 

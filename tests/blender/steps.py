@@ -199,6 +199,13 @@ def choices():
             make(**keywords)
         except (TypeError, ValueError) as error:
             refused[make.__name__] = str(error)
+    for when in ("auto", "always", "never"):
+        for town, _, _ in properties.TOWNS:
+            scene.skyprobe.night_when, scene.skyprobe.light_pollution = when, town
+            try:
+                skyprobe.Night(**properties.night(scene.skyprobe))
+            except (TypeError, ValueError) as error:
+                refused[f"night {when} {town}"] = str(error)
     return refused
 
 
@@ -211,6 +218,23 @@ def filtered():
         bpy.ops.skyprobe.render()
         upper = pixels_of(scene.skyprobe.image)[:128]
         answer[mode] = {"mean": float(upper.mean()), "keywords": part("properties").polarising_filter(scene.skyprobe)}
+    return answer
+
+
+def nights():
+    """Render a probe under the full Moon with each choice of the panel; tell the mean of its upper half, and the keywords as they come."""
+    scene = set_up(year=2005, month=1, day=25, hour=0.5, sun_mode="MAP")
+    answer = {"defaults": part("properties").night(scene.skyprobe)}
+    for name, settings in {
+        "full_moon": {},
+        "town": {"light_pollution": "8", "solar_flux": 200.0, "star_limit": 6.5},
+        "never": {"night_when": "never"},
+    }.items():
+        for key, value in settings.items():
+            setattr(scene.skyprobe, key, value)
+        bpy.ops.skyprobe.render()
+        answer[name] = float(pixels_of(scene.skyprobe.image)[:128].mean())
+        answer[f"{name}_keywords"] = part("properties").night(scene.skyprobe)
     return answer
 
 
