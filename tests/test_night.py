@@ -128,6 +128,22 @@ def test_the_eclipse_of_1999_over_lund(air: sp.Atmosphere) -> None:
     assert dimmed / whole == pytest.approx(eclipse.visible_fraction, rel=0.03)
 
 
+def test_totality_leaves_a_dark_sky_with_a_bright_horizon(air: sp.Atmosphere) -> None:
+    place = {"latitude": 45.08, "longitude": 24.2917}
+    sky = sky_at(air, place, "1999-08-11T11:03:07Z")
+    eclipse = sky.solar_eclipse
+    # checked against: NASA RP 1398 (Espenak & Anderson 1997), greatest eclipse: magnitude 1.0286.
+    assert eclipse is not None and (eclipse.kind, eclipse.obscuration, eclipse.visible_fraction) == ("total", 1.0, 0.0)
+    assert eclipse.magnitude == pytest.approx(1.0286, abs=0.001)
+    light = sky.illuminance()
+    # checked against: some 3 lx as measured at many eclipses (Mollmann & Vollmer 2006, European Journal of Physics 27, 1299).
+    assert light.diffuse_horizontal_lx == pytest.approx(3.0, rel=0.2) and light.direct_normal_lx == 0.0
+    probe = sky.render(width=512, scale="luminance", color_space="xyz", layers={"sun": 0.0})
+    assert probe.irradiance()[1] == pytest.approx(light.diffuse_horizontal_lx, rel=0.01)
+    # Round the Sun's place the corona shines.
+    assert sky.render(width=512, scale="luminance", color_space="xyz").irradiance()[1] > probe.irradiance()[1] * 1.01
+
+
 def test_the_total_eclipse_of_the_moon_of_2018_is_dark_and_red(air: sp.Atmosphere) -> None:
     sky = sky_at(air, MAUNA_KEA, "2018-01-31T13:29:50Z")
     eclipse = sky.lunar_eclipse

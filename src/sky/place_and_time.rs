@@ -233,7 +233,7 @@ impl Sky {
         let sunlight = self.sunlight(wavelengths_nm);
         let transmittance = self.disc_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
-        let diffuse = diffuse_horizontal(field, &self.observer(), progress)?;
+        let diffuse = self.diffuse_horizontal(field, progress)?;
         let in_the_air = self.sunlight_in_the_air(wavelengths_nm);
         Ok(Irradiance {
             direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
@@ -254,7 +254,7 @@ impl Sky {
         };
         let direct_normal_lx = luminous(&self.disc_transmittance(field), &weights);
         let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
-        let by_sunlight = luminous(&diffuse_horizontal(field, &self.observer(), progress)?, &sky_weights);
+        let by_sunlight = luminous(&self.diffuse_horizontal(field, progress)?, &sky_weights);
         let night = self.night_light(field, &LightOptions::default(), progress)?;
         let moons = night.only(Layer::Moon).discs();
         // A sum of nothing would be -0.
@@ -368,6 +368,12 @@ impl Sky {
             layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
         }
         Ok(layers)
+    }
+
+    /// Irradiance by the sky per unit of the light that is in the air.
+    fn diffuse_horizontal(&self, field: &LightField, progress: &Progress) -> Result<Vec<f64>> {
+        let gain = |altitude: f64| eclipse::gain(self.eclipse.as_ref(), altitude);
+        diffuse_horizontal(field, &self.observer(), gain, progress)
     }
 
     fn field(&self, progress: &Progress) -> Result<&LightField> {
