@@ -11,7 +11,7 @@ use super::layers::{Layer, Layers, Part};
 use super::model::{LightOptions, check_tolerance};
 use super::night::{NightOptions, moon, moonlight_weights};
 use crate::atmosphere::molecules;
-use crate::celestial::SolarEclipse;
+use crate::celestial::{MoonDisc, SolarEclipse};
 use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SunModel, bodies, horizontal_from_direction, sun_at};
 use crate::error::{Error, Result, check_range};
 use crate::light::{Gathered, LightField, Observer, transverse};
@@ -22,7 +22,7 @@ use crate::units::{LUMINOUS_EFFICACY, Scale};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Wavelength for which refraction is traced: near the peak of daylight vision [nm].
 const REFRACTION_NM: f64 = 550.0;
@@ -41,6 +41,8 @@ pub struct Sky {
     /// Everything in the sky of a place and a time.
     bodies: Option<Bodies>,
     eclipse: Option<SolarEclipse>,
+    /// Made when it is first needed.
+    moon: OnceLock<MoonDisc>,
     night: NightOptions,
     refraction: Refraction,
     atmosphere: Arc<Atmosphere>,
@@ -64,6 +66,7 @@ impl Sky {
             sun: bodies.sun.clone(),
             bodies: Some(bodies),
             eclipse,
+            moon: OnceLock::new(),
             night: NightOptions::default(),
             refraction,
             atmosphere,
@@ -85,6 +88,7 @@ impl Sky {
             sun,
             bodies: None,
             eclipse: None,
+            moon: OnceLock::new(),
             night: NightOptions::default(),
             refraction,
             atmosphere,
@@ -359,12 +363,21 @@ impl Sky {
             && bodies.moon.body.altitude_deg > DARK_DEG
             && options.layers.of(Layer::Sky) > 0.0
         {
-            let weights = moonlight_weights(&moon(bodies)?, &self.atmosphere.profile().wavelengths_nm);
+            let weights = moonlight_weights(self.moon(bodies)?, self.atmosphere.weights());
             let through = (options.polarising_filter.as_ref(), options.tolerance);
             let dome = self.dome(field, &bodies.moon.body, weights, through, Vec::new(), progress)?;
             layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
         }
         Ok(layers)
+    }
+
+    /// The Moon outside the air.
+    pub(super) fn moon(&self, bodies: &Bodies) -> Result<&MoonDisc> {
+        if let Some(moon) = self.moon.get() {
+            return Ok(moon);
+        }
+        let moon = moon(bodies)?;
+        Ok(self.moon.get_or_init(|| moon))
     }
 
     fn field(&self, progress: &Progress) -> Result<&LightField> {
