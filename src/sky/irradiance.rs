@@ -40,8 +40,13 @@ const CIRCLES: usize = 32;
 /// Azimuths on half the circle.
 const AZIMUTHS: usize = 60;
 
-/// Irradiance of the horizontal plane by the sky, per unit solar irradiance, by wavelength.
-pub(super) fn diffuse_horizontal(field: &LightField, observer: &Observer, progress: &Progress) -> Result<Vec<f64>> {
+/// Irradiance of the horizontal plane by the sky, per unit solar irradiance, by wavelength; `gain` is a factor on the sky's light at an altitude [radians].
+pub(super) fn diffuse_horizontal(
+    field: &LightField,
+    observer: &Observer,
+    gain: impl Fn(f64) -> f64 + Sync,
+    progress: &Progress,
+) -> Result<Vec<f64>> {
     let azimuths: Vec<f64> = (0..AZIMUTHS).map(|a| (a as f64 + 0.5) * PI / AZIMUTHS as f64).collect();
     let parts = progress.parts("gather", CIRCLES);
     let circles = gauss::legendre(CIRCLES)
@@ -52,7 +57,7 @@ pub(super) fn diffuse_horizontal(field: &LightField, observer: &Observer, progre
             let mut sum = vec![0.0; gathered.wavelengths];
             for (a, azimuth) in azimuths.iter().enumerate() {
                 let cosine = mu * observer.sun_zenith.cos() + (1.0 - mu * mu).sqrt() * observer.sun_zenith.sin() * azimuth.cos();
-                let share = 2.0 * t * weight * mu * TAU / AZIMUTHS as f64;
+                let share = gain(mu.asin()) * 2.0 * t * weight * mu * TAU / AZIMUTHS as f64;
                 for (w, total) in sum.iter_mut().enumerate() {
                     *total += share * field.radiance(&gathered, a, w, cosine);
                 }

@@ -4,7 +4,7 @@ use super::SkyLight;
 use super::atmosphere::Atmosphere;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::dome::{Gathering, SkyDome};
-use super::eclipse::{self, EclipsedDome, eclipse};
+use super::eclipse::{self, EclipsedDome, Gain, eclipse};
 use super::filter::PolarisingFilter;
 use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, horizontal_irradiance};
 use super::layers::{Layer, Layers, Part};
@@ -207,6 +207,7 @@ impl Sky {
     ) -> Result<Vec<T>> {
         let observer = self.observer();
         let sun = self.sun.direction();
+        let gain = self.eclipse_gain(field, progress)?;
         let parts = progress.parts("gather", directions.len());
         directions
             .par_iter()
@@ -218,7 +219,7 @@ impl Sky {
                 let look = Look {
                     cosine: direction.dot(sun),
                     transverse: transverse(mu, azimuth, observer.sun_zenith),
-                    gain: eclipse::gain(self.eclipse.as_ref(), mu.asin()),
+                    gain: gain.as_ref().map_or(1.0, |gain| gain.at(mu.asin())),
                 };
                 let value = result(&field.gather(&observer, mu, &[azimuth]), &look);
                 parts.finish_one()?;
@@ -237,7 +238,7 @@ impl Sky {
         let sunlight = self.sunlight(wavelengths_nm);
         let transmittance = self.disc_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
-        let diffuse = diffuse_horizontal(field, &self.observer(), progress)?;
+        let diffuse = self.diffuse_horizontal(field, progress)?;
         let in_the_air = self.sunlight_in_the_air(wavelengths_nm);
         Ok(Irradiance {
             direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
@@ -258,7 +259,7 @@ impl Sky {
         };
         let direct_normal_lx = luminous(&self.disc_transmittance(field), &weights);
         let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
-        let by_sunlight = luminous(&diffuse_horizontal(field, &self.observer(), progress)?, &sky_weights);
+        let by_sunlight = luminous(&self.diffuse_horizontal(field, progress)?, &sky_weights);
         let night = self.night_light(field, &LightOptions::default(), progress)?;
         let moons = night.only(Layer::Moon).discs();
         let moon_normal_lx = moons.iter().map(|disc| LUMINOUS_EFFICACY * disc.irradiance[1]).sum::<f64>();
@@ -346,8 +347,8 @@ impl Sky {
         let scale = |layer: Layer| options.layers.of(layer);
         let dome = self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?;
         layers.add(Layer::Sun, scale(Layer::Sun), Part { discs: dome.discs(), ..Default::default() });
-        let smooth: Box<dyn SkyLight + Send> = match self.eclipse {
-            Some(eclipse) => Box::new(EclipsedDome { dome, eclipse }),
+        let smooth: Box<dyn SkyLight + Send> = match self.eclipse_gain(field, progress)? {
+            Some(gain) => Box::new(EclipsedDome { dome, gain }),
             None => Box::new(dome),
         };
         layers.add(Layer::Sky, scale(Layer::Sky), Part { smooth: vec![smooth], ..Default::default() });
@@ -369,6 +370,26 @@ impl Sky {
             layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
         }
         Ok(layers)
+    }
+
+    /// Irradiance of the horizontal plane by the sky per unit of what [`eclipse::sky_share`] leaves of sunlight, by wavelength.
+    fn diffuse_horizontal(&self, field: &LightField, progress: &Progress) -> Result<Vec<f64>> {
+        let uncovered = self.uncovered_at(&[eclipse::MIDDLE_NM])[0];
+        diffuse_horizontal(field, &self.observer(), |altitude| eclipse::gain_of_sky(uncovered, altitude), progress)
+    }
+
+    /// What an eclipse of the Sun, if there is one, does to sky and ground beside dimming them alike.
+    fn eclipse_gain(&self, field: &LightField, progress: &Progress) -> Result<Option<Gain>> {
+        let Some(eclipse) = &self.eclipse else { return Ok(None) };
+        let off_middle = |wavelength: f64| (wavelength - eclipse::MIDDLE_NM).abs();
+        let nodes = self.atmosphere.profile().wavelengths_nm.iter().enumerate();
+        let middle = nodes.min_by(|a, b| off_middle(*a.1).total_cmp(&off_middle(*b.1))).map_or(0, |(node, _)| node);
+        let share = eclipse::sky_share(eclipse.visible_fraction(eclipse::MIDDLE_NM));
+        let sky = diffuse_horizontal(field, &self.observer(), |_| 1.0, progress)?[middle];
+        let sky_left = self.diffuse_horizontal(field, progress)?[middle] * share;
+        let sun = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians())[middle] * self.disc_cosine();
+        let to_ground = |altitude: f64| field.ray_transmittance(self.altitude_km(), altitude.sin())[middle];
+        Ok(Some(Gain::new(eclipse, self.horizon(), (sun, sky, sky_left), to_ground)))
     }
 
     /// The Moon outside the air.
