@@ -13,7 +13,7 @@
 
 use super::diffuse::DiffuseLight;
 use super::photometry::SQUARE_DEGREES_PER_STERADIAN;
-use super::star_spectra::StarSpectra;
+use super::star_spectra::{self, StarSpectra};
 use super::stars::stars_to;
 use crate::error::{Result, check_range};
 use glam::DVec3;
@@ -36,6 +36,22 @@ struct Map {
 
 static MAP: LazyLock<Map> =
     LazyLock::new(|| read(include_bytes!("../../data/milky_way.bin")).expect("the embedded map is whole"));
+
+/// Spectral radiance of 1 S10(V) at the wavelengths of the table of spectra [W m-2 sr-1 nm-1].
+static SPECTRUM: LazyLock<Vec<f64>> = LazyLock::new(|| {
+    let spectra = StarSpectra::new(&star_spectra::nodes_nm());
+    let mut light = vec![0.0; spectra.row_count()];
+    let bright = stars_to(7.0).len();
+    for star in &stars_to(CATALOGUE_LIMIT)[bright..] {
+        light[spectra.row_of(star.b_minus_v)] += 10f64.powf(-0.4 * star.v_magnitude);
+    }
+    let unit = 1e-4 * SQUARE_DEGREES_PER_STERADIAN / light.iter().sum::<f64>();
+    let mut spectrum = vec![0.0; spectra.row(0).len()];
+    for (row, share) in light.iter().enumerate() {
+        spectrum.iter_mut().zip(spectra.row(row)).for_each(|(sum, value)| *sum += unit * share * value);
+    }
+    spectrum
+});
 
 /// Layout: magic, height, width (u32), smallest brightness, ratio (f32), then one byte a pixel: smallest times ratio to that
 /// power; little endian.
@@ -104,19 +120,7 @@ impl MilkyWay {
 
 impl DiffuseLight<1> for MilkyWay {
     fn spectra(&self, wavelengths_nm: &[f64]) -> [Vec<f64>; 1] {
-        let spectra = StarSpectra::new(wavelengths_nm);
-        let mut light = vec![0.0; spectra.row_count()];
-        let bright = stars_to(7.0).len();
-        for star in &stars_to(CATALOGUE_LIMIT)[bright..] {
-            light[spectra.row_of(star.b_minus_v)] += 10f64.powf(-0.4 * star.v_magnitude);
-        }
-        let whole: f64 = light.iter().sum();
-        let unit = 1e-4 * SQUARE_DEGREES_PER_STERADIAN / whole;
-        let mut spectrum = vec![0.0; wavelengths_nm.len()];
-        for (row, share) in light.iter().enumerate() {
-            spectrum.iter_mut().zip(spectra.row(row)).for_each(|(sum, value)| *sum += unit * share * value);
-        }
-        [spectrum]
+        [wavelengths_nm.iter().map(|&wavelength| star_spectra::between_nodes(&SPECTRUM, wavelength)).collect()]
     }
 
     fn scalars(&self, direction: DVec3) -> [f64; 1] {

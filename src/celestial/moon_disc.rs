@@ -23,14 +23,16 @@ use crate::light::gauss::legendre;
 use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// Root mean square angle between the Earth's centre and its surface elements, seen from the Moon [degrees]: the least phase angle of
 /// earthshine.
 const EARTH_SPREAD_DEG: f64 = 0.67;
 
 /// Nodes of the quadratures over the disc, in photometric longitude and latitude.
-const NODES: usize = 128;
+const NODES: usize = 64;
+
+static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(NODES));
 
 /// The Moon, ready to be drawn.
 #[derive(Clone, Debug)]
@@ -45,6 +47,7 @@ pub struct MoonDisc {
     sunlit_mean: f64,
     earthlit_mean: f64,
     shadow: Option<Shadow>,
+    integrals: Vec<f64>,
 }
 
 /// The part of the shadow's table that the disc needs.
@@ -104,10 +107,12 @@ impl MoonDisc {
             sunlit_mean: 1.0,
             earthlit_mean: 1.0,
             shadow: None,
+            integrals: Vec::new(),
         };
         disc.sunlit_mean = disc.mean(phase, |normal, brightness| disc.albedo(normal, disc.contrast) * brightness);
         disc.earthlit_mean = disc.mean(0.0, |normal, _| disc.albedo(normal, contrast(0.0)));
         disc.shadow = shadow.and_then(|table| disc.cut(table));
+        disc.integrals = disc.integrate();
         Ok(disc)
     }
 
@@ -156,13 +161,21 @@ impl MoonDisc {
 
     /// Irradiance of the whole disc over that of the Sun at 1 au, at `wavelength_nm`, outside the air.
     pub fn irradiance_ratio(&self, wavelength_nm: f64) -> f64 {
-        self.component_integrals().into_iter().enumerate().map(|(c, integral)| integral * self.spectrum(c, wavelength_nm)).sum()
+        self.integrals.iter().enumerate().map(|(c, integral)| integral * self.spectrum(c, wavelength_nm)).sum()
     }
 
     /// Integral of each component's x over the disc [sr]: with the spectra, the irradiance.
-    pub fn component_integrals(&self) -> Vec<f64> {
-        let mut integrals = vec![0.0; self.components()];
+    pub fn component_integrals(&self) -> &[f64] {
+        &self.integrals
+    }
+
+    fn integrate(&self) -> Vec<f64> {
         let solid_angle = self.view.solid_angle();
+        if self.shadow.is_none() {
+            // By the means.
+            return vec![solid_angle; 2];
+        }
+        let mut integrals = vec![0.0; self.components()];
         // In shadow the lit side is the whole disc: the earthlit grid sees all of it.
         self.visit(self.phase, |normal, brightness, share| {
             for (component, weight) in self.point(normal, brightness).weights {
@@ -206,13 +219,12 @@ impl MoonDisc {
 
     /// Calls `visit` with points of the part of the disc that is lit at `phase`, D there, and their share of the disc's solid angle.
     fn visit(&self, phase: f64, mut visit: impl FnMut(DVec3, f64, f64)) {
-        let rule = legendre(NODES);
         let observer = -self.view.direction * self.view.distance_km;
         let solid_angle = self.view.solid_angle();
         let lit = (PI - phase).max(0.0);
-        for &(x, width) in &rule {
+        for &(x, width) in RULE.iter() {
             let longitude = FRAC_PI_2 - lit * (1.0 - x);
-            for &(y, height) in &rule {
+            for &(y, height) in RULE.iter() {
                 let latitude = PI * (y - 0.5);
                 let normal = self.frame.normal(longitude, latitude);
                 // In perspective: the element's solid angle as the observer has it.

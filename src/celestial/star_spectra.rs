@@ -43,10 +43,19 @@ pub(super) fn zero_magnitude_irradiance(b_minus_v: f64, wavelength_nm: f64) -> f
     let right = table.b_minus_v.partition_point(|&colour| colour <= b_minus_v).clamp(1, last);
     let (low, high) = (table.b_minus_v[right - 1], table.b_minus_v[right]);
     let fraction = ((b_minus_v - low) / (high - low)).clamp(0.0, 1.0);
-    let end = (table.spectra[0].len() - 1) as f64;
-    let position = ((wavelength_nm - TABLE_START_NM) / TABLE_STEP_NM).clamp(0.0, end);
-    let value = |row: usize| interpolated(&table.spectra[row], position).unwrap_or(0.0);
+    let value = |row: usize| between_nodes(&table.spectra[row], wavelength_nm);
     value(right - 1) * (value(right) / value(right - 1)).powf(fraction)
+}
+
+/// Wavelengths of the table [nm].
+pub(super) fn nodes_nm() -> Vec<f64> {
+    (0..TABLE.spectra[0].len()).map(|i| TABLE_START_NM + TABLE_STEP_NM * i as f64).collect()
+}
+
+/// Value at `wavelength_nm` of what is given at [`nodes_nm`]; the end value outside.
+pub(super) fn between_nodes(values: &[f64], wavelength_nm: f64) -> f64 {
+    let end = (values.len() - 1) as f64;
+    interpolated(values, ((wavelength_nm - TABLE_START_NM) / TABLE_STEP_NM).clamp(0.0, end)).unwrap_or(0.0)
 }
 
 /// Spectra of stars of V = 0 at given wavelengths, one row for every 0.02 magnitudes of B - V, so that any number of stars costs

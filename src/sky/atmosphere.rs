@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::light::LightField;
 use crate::progress::Progress;
 use crate::quality::Quality;
-use crate::spectrum::{CubicSpline, solar, wavelengths, xyz_weights};
+use crate::spectrum::{CubicSpline, WeightsOfAnySource, solar, wavelengths};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// The air and the light in it. The light is solved once, when it is first needed, and serves every place, time and height.
@@ -18,6 +18,7 @@ pub struct Atmosphere {
     /// Whether the wavelengths are not those of the quality.
     chosen_wavelengths: bool,
     cache: Option<Cache>,
+    weights: OnceLock<WeightsOfAnySource>,
     field: OnceLock<LightField>,
     /// Held while solving, so that two threads that need the light at once solve it once.
     solving: Mutex<()>,
@@ -71,6 +72,7 @@ impl Atmosphere {
             polarised,
             chosen_wavelengths: false,
             cache: None,
+            weights: OnceLock::new(),
             field: OnceLock::new(),
             solving: Mutex::new(()),
         }
@@ -186,10 +188,15 @@ impl Atmosphere {
             ));
         }
         if self.parameters.is_some() {
-            return Ok(xyz_weights(nodes, |wavelength| solar::irradiance(wavelength, 1.0)));
+            return Ok(self.weights().of(|wavelength| solar::irradiance(wavelength, 1.0)));
         }
-        let plain = xyz_weights(nodes, |_| 1.0);
+        let plain = self.weights().of(|_| 1.0);
         Ok(plain.into_iter().zip(&self.profile.solar_irradiance).map(|(xyz, &sun)| xyz.map(|w| w * sun)).collect())
+    }
+
+    /// Weights of the solved wavelengths for light of any source.
+    pub(super) fn weights(&self) -> &WeightsOfAnySource {
+        self.weights.get_or_init(|| WeightsOfAnySource::new(&self.profile.wavelengths_nm))
     }
 
     /// Solar irradiance at 1 au at any of the wavelengths that the profile covers [W m-2 nm-1].

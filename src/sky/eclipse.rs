@@ -2,7 +2,11 @@
 //!
 //! The light field is solved for parallel sunlight that is the same everywhere; under the Moon's shadow it is not. The honest approximation: the sky is that of the whole Sun, dimmed at each wavelength by
 //! the uncovered, limb-darkened part of the disc as seen from the observer, and towards totality light that comes in from outside the umbra is left, more at the horizon
-//! ([`crate::celestial::solar_eclipse::remaining_sky_light`]).
+//! ([`crate::celestial::solar_eclipse::remaining_sky_light`]). The ground is lit by what is left of Sun and sky:
+//! ```text
+//! share of the ground = (V E_sun + E_sky left) / (E_sun + E_sky),
+//! ```
+//! horizontal irradiances without and with the eclipse; where the air before it is opaque, it has the share of the sky at the horizon.
 
 use super::SkyLight;
 use super::disc::{Disc, Surface, SurfaceMap};
@@ -15,7 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// Wavelength for the Sun's light as a whole [nm].
-const MIDDLE_NM: f64 = 550.0;
+pub(super) const MIDDLE_NM: f64 = 550.0;
 
 /// Wavelengths and weights of the limb darkening of X, Y and Z [nm].
 const COLOURS: [[(f64, f64); 2]; 3] = [[(600.0, 0.8), (450.0, 0.2)], [(550.0, 1.0), (550.0, 0.0)], [(450.0, 1.0), (450.0, 0.0)]];
@@ -41,23 +45,64 @@ pub(super) fn sky_share(uncovered: f64) -> f64 {
     remaining_sky_light(uncovered, FRAC_PI_2)
 }
 
-/// Light of the sky at `altitude` [radians] over what [`sky_share`] says.
-pub(super) fn gain(eclipse: Option<&SolarEclipse>, altitude: f64) -> f64 {
-    let Some(eclipse) = eclipse else { return 1.0 };
-    let uncovered = eclipse.visible_fraction(MIDDLE_NM);
-    remaining_sky_light(uncovered, altitude) / remaining_sky_light(uncovered, FRAC_PI_2)
+/// Light of the sky at `altitude` above the horizontal [radians] over what [`sky_share`] says.
+pub(super) fn gain_of_sky(uncovered: f64, altitude: f64) -> f64 {
+    remaining_sky_light(uncovered, altitude) / sky_share(uncovered)
+}
+
+/// Light in all directions over what [`sky_share`] says.
+pub(super) struct Gain {
+    uncovered: f64,
+    horizon: f64,
+    ground: f64,
+    /// Of the air before the ground, evenly from the horizon to the nadir in the square root of the share of the way.
+    transmittance: Vec<f64>,
+}
+
+/// Altitudes of the table of transmittances.
+const ALTITUDES: usize = 32;
+
+impl Gain {
+    /// For the horizon at `horizon` [radians], the horizontal irradiance by the Sun and by the sky without an eclipse and by the sky under it, and the transmittance of the air
+    /// to the ground at an altitude [radians].
+    pub fn new(
+        eclipse: &SolarEclipse,
+        horizon: f64,
+        (sun, sky, sky_left): (f64, f64, f64),
+        transmittance: impl Fn(f64) -> f64,
+    ) -> Self {
+        let uncovered = eclipse.visible_fraction(MIDDLE_NM);
+        let whole = sun + sky;
+        let ground = if whole > 0.0 { (uncovered * sun + sky_left) / whole / sky_share(uncovered) } else { 1.0 };
+        let altitude = |i: usize| horizon - (FRAC_PI_2 + horizon) * (i as f64 / (ALTITUDES - 1) as f64).powi(2).max(1e-7);
+        Self { uncovered, horizon, ground, transmittance: (0..ALTITUDES).map(|i| transmittance(altitude(i))).collect() }
+    }
+
+    /// At `altitude` [radians].
+    pub fn at(&self, altitude: f64) -> f64 {
+        let sky = gain_of_sky(self.uncovered, altitude);
+        if altitude >= self.horizon {
+            return sky;
+        }
+        let share = ((self.horizon - altitude) / (FRAC_PI_2 + self.horizon)).clamp(0.0, 1.0);
+        let position = share.sqrt() * (ALTITUDES - 1) as f64;
+        let node = (position as usize).min(ALTITUDES - 2);
+        let fraction = position - node as f64;
+        let clear = self.transmittance[node] * (1.0 - fraction) + self.transmittance[node + 1] * fraction;
+        clear * self.ground + (1.0 - clear) * sky
+    }
 }
 
 /// A dome under the Moon's shadow.
 pub(super) struct EclipsedDome {
     pub dome: SkyDome,
-    pub eclipse: SolarEclipse,
+    pub gain: Gain,
 }
 
 impl SkyLight for EclipsedDome {
     fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
         self.dome.radiance_circle(altitude, azimuths, out);
-        let gain = gain(Some(&self.eclipse), altitude) as f32;
+        let gain = self.gain.at(altitude) as f32;
         out.as_flattened_mut().iter_mut().for_each(|value| *value *= gain);
     }
 

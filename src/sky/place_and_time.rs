@@ -4,14 +4,14 @@ use super::SkyLight;
 use super::atmosphere::Atmosphere;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::dome::{Gathering, SkyDome};
-use super::eclipse::{self, EclipsedDome, eclipse};
+use super::eclipse::{self, EclipsedDome, Gain, eclipse};
 use super::filter::PolarisingFilter;
 use super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, horizontal_irradiance};
 use super::layers::{Layer, Layers, Part};
 use super::model::{LightOptions, check_tolerance};
 use super::night::{NightOptions, moon, moonlight_weights};
 use crate::atmosphere::molecules;
-use crate::celestial::SolarEclipse;
+use crate::celestial::{MoonDisc, SolarEclipse};
 use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SunModel, bodies, horizontal_from_direction, sun_at};
 use crate::error::{Error, Result, check_range};
 use crate::light::{Gathered, LightField, Observer, transverse};
@@ -22,7 +22,7 @@ use crate::units::{LUMINOUS_EFFICACY, Scale};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Wavelength for which refraction is traced: near the peak of daylight vision [nm].
 const REFRACTION_NM: f64 = 550.0;
@@ -41,6 +41,8 @@ pub struct Sky {
     /// Everything in the sky of a place and a time.
     bodies: Option<Bodies>,
     eclipse: Option<SolarEclipse>,
+    /// Made when it is first needed.
+    moon: OnceLock<MoonDisc>,
     night: NightOptions,
     refraction: Refraction,
     atmosphere: Arc<Atmosphere>,
@@ -64,6 +66,7 @@ impl Sky {
             sun: bodies.sun.clone(),
             bodies: Some(bodies),
             eclipse,
+            moon: OnceLock::new(),
             night: NightOptions::default(),
             refraction,
             atmosphere,
@@ -85,6 +88,7 @@ impl Sky {
             sun,
             bodies: None,
             eclipse: None,
+            moon: OnceLock::new(),
             night: NightOptions::default(),
             refraction,
             atmosphere,
@@ -203,6 +207,7 @@ impl Sky {
     ) -> Result<Vec<T>> {
         let observer = self.observer();
         let sun = self.sun.direction();
+        let gain = self.eclipse_gain(field, progress)?;
         let parts = progress.parts("gather", directions.len());
         directions
             .par_iter()
@@ -214,7 +219,7 @@ impl Sky {
                 let look = Look {
                     cosine: direction.dot(sun),
                     transverse: transverse(mu, azimuth, observer.sun_zenith),
-                    gain: eclipse::gain(self.eclipse.as_ref(), mu.asin()),
+                    gain: gain.as_ref().map_or(1.0, |gain| gain.at(mu.asin())),
                 };
                 let value = result(&field.gather(&observer, mu, &[azimuth]), &look);
                 parts.finish_one()?;
@@ -345,8 +350,8 @@ impl Sky {
         let scale = |layer: Layer| options.layers.of(layer);
         let dome = self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?;
         layers.add(Layer::Sun, scale(Layer::Sun), Part { discs: dome.discs(), ..Default::default() });
-        let smooth: Box<dyn SkyLight + Send> = match self.eclipse {
-            Some(eclipse) => Box::new(EclipsedDome { dome, eclipse }),
+        let smooth: Box<dyn SkyLight + Send> = match self.eclipse_gain(field, progress)? {
+            Some(gain) => Box::new(EclipsedDome { dome, gain }),
             None => Box::new(dome),
         };
         layers.add(Layer::Sky, scale(Layer::Sky), Part { smooth: vec![smooth], ..Default::default() });
@@ -362,7 +367,7 @@ impl Sky {
             && bodies.moon.body.altitude_deg > DARK_DEG
             && options.layers.of(Layer::Sky) > 0.0
         {
-            let weights = moonlight_weights(&moon(bodies)?, &self.atmosphere.profile().wavelengths_nm);
+            let weights = moonlight_weights(self.moon(bodies)?, self.atmosphere.weights());
             let through = (options.polarising_filter.as_ref(), options.tolerance);
             let dome = self.dome(field, &bodies.moon.body, weights, through, Vec::new(), progress)?;
             layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
@@ -370,10 +375,33 @@ impl Sky {
         Ok(layers)
     }
 
-    /// Irradiance by the sky per unit of the light that is in the air.
+    /// Irradiance of the horizontal plane by the sky per unit of what [`eclipse::sky_share`] leaves of sunlight, by wavelength.
     fn diffuse_horizontal(&self, field: &LightField, progress: &Progress) -> Result<Vec<f64>> {
-        let gain = |altitude: f64| eclipse::gain(self.eclipse.as_ref(), altitude);
-        diffuse_horizontal(field, &self.observer(), gain, progress)
+        let uncovered = self.uncovered_at(&[eclipse::MIDDLE_NM])[0];
+        diffuse_horizontal(field, &self.observer(), |altitude| eclipse::gain_of_sky(uncovered, altitude), progress)
+    }
+
+    /// What an eclipse of the Sun, if there is one, does to sky and ground beside dimming them alike.
+    fn eclipse_gain(&self, field: &LightField, progress: &Progress) -> Result<Option<Gain>> {
+        let Some(eclipse) = &self.eclipse else { return Ok(None) };
+        let off_middle = |wavelength: f64| (wavelength - eclipse::MIDDLE_NM).abs();
+        let nodes = self.atmosphere.profile().wavelengths_nm.iter().enumerate();
+        let middle = nodes.min_by(|a, b| off_middle(*a.1).total_cmp(&off_middle(*b.1))).map_or(0, |(node, _)| node);
+        let share = eclipse::sky_share(eclipse.visible_fraction(eclipse::MIDDLE_NM));
+        let sky = diffuse_horizontal(field, &self.observer(), |_| 1.0, progress)?[middle];
+        let sky_left = self.diffuse_horizontal(field, progress)?[middle] * share;
+        let sun = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians())[middle] * self.disc_cosine();
+        let to_ground = |altitude: f64| field.ray_transmittance(self.altitude_km(), altitude.sin())[middle];
+        Ok(Some(Gain::new(eclipse, self.horizon(), (sun, sky, sky_left), to_ground)))
+    }
+
+    /// The Moon outside the air.
+    pub(super) fn moon(&self, bodies: &Bodies) -> Result<&MoonDisc> {
+        if let Some(moon) = self.moon.get() {
+            return Ok(moon);
+        }
+        let moon = moon(bodies)?;
+        Ok(self.moon.get_or_init(|| moon))
     }
 
     fn field(&self, progress: &Progress) -> Result<&LightField> {

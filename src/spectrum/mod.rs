@@ -12,4 +12,4 @@ pub use binned::BinnedSpectrum;
 pub use color_space::{Chromaticities, ColorSpace, Gamut};
 pub use grid::wavelengths;
 pub use spline::CubicSpline;
-pub use weights::xyz_weights;
+pub use weights::{WeightsOfAnySource, xyz_weights};

@@ -19,14 +19,45 @@ use super::spline::cardinal_functions;
 /// # Panics
 /// If there are no wavelengths.
 pub fn xyz_weights(wavelengths_nm: &[f64], source: impl Fn(f64) -> f64) -> Vec<[f64; 3]> {
-    let fine: Vec<f64> = (observer::RANGE_NM.0..=observer::RANGE_NM.1).map(f64::from).collect();
-    let products: Vec<[f64; 3]> = fine.iter().map(|&w| observer::matching_functions(w).map(|value| value * source(w))).collect();
-    cardinal_functions(wavelengths_nm, &fine)
-        .iter()
-        .map(|cardinal| {
-            std::array::from_fn(|c| cardinal.iter().zip(&products).map(|(weight, product)| weight * product[c]).sum())
-        })
-        .collect()
+    WeightsOfAnySource::new(wavelengths_nm).of(source)
+}
+
+/// C_i(lambda) cmf(lambda) of the module's equation for fixed nodes: what the weights of all sources have in common.
+#[derive(Clone, Debug)]
+pub struct WeightsOfAnySource {
+    /// (node, nanometre, X Y Z).
+    products: Vec<Vec<[f64; 3]>>,
+}
+
+impl WeightsOfAnySource {
+    /// For the nodes `wavelengths_nm` [nm] (ascending, at least one).
+    ///
+    /// # Panics
+    /// If there are no wavelengths.
+    pub fn new(wavelengths_nm: &[f64]) -> Self {
+        let fine: Vec<f64> = whole_nanometres().collect();
+        let matching: Vec<[f64; 3]> = fine.iter().map(|&wavelength| observer::matching_functions(wavelength)).collect();
+        let product =
+            |cardinal: Vec<f64>| cardinal.iter().zip(&matching).map(|(share, cmf)| cmf.map(|value| value * share)).collect();
+        Self { products: cardinal_functions(wavelengths_nm, &fine).into_iter().map(product).collect() }
+    }
+
+    /// The weights for the irradiance `source`, as [`xyz_weights`] gives them.
+    pub fn of(&self, source: impl Fn(f64) -> f64) -> Vec<[f64; 3]> {
+        let source: Vec<f64> = whole_nanometres().map(source).collect();
+        let node = |products: &Vec<[f64; 3]>| {
+            let mut sums = [0.0; 3];
+            for (product, value) in products.iter().zip(&source) {
+                (0..3).for_each(|k| sums[k] += product[k] * value);
+            }
+            sums
+        };
+        self.products.iter().map(node).collect()
+    }
+}
+
+fn whole_nanometres() -> impl Iterator<Item = f64> {
+    (observer::RANGE_NM.0..=observer::RANGE_NM.1).map(f64::from)
 }
 
 #[cfg(test)]

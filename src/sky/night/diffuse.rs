@@ -15,7 +15,7 @@ use crate::atmosphere::OpticalProfile;
 use crate::celestial::DiffuseLight;
 use crate::error::{Error, Result};
 use crate::light::LightField;
-use crate::spectrum::{observer, xyz_weights};
+use crate::spectrum::{WeightsOfAnySource, observer};
 use glam::{DMat3, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -30,8 +30,8 @@ const DIFFUSE_AIR_MASS: f64 = 1.66;
 const MEANS: (usize, usize) = (24, 48);
 
 /// What the air does to diffuse light, by wavelength.
-pub(super) struct DiffuseAir {
-    wavelengths_nm: Vec<f64>,
+pub(super) struct DiffuseAir<'a> {
+    weights: &'a WeightsOfAnySource,
     horizon: f64,
     /// Transmittance to space above, to the ground below the horizon: (side, altitude, wavelength).
     transmittance: [Vec<Vec<f64>>; 2],
@@ -40,12 +40,16 @@ pub(super) struct DiffuseAir {
     albedo: Vec<f64>,
 }
 
-impl DiffuseAir {
-    /// The air of `profile`, whose light is `field`, over an observer at `altitude_km` with the horizon at `horizon` [radians].
+impl<'a> DiffuseAir<'a> {
+    /// The air of `profile`, whose light is `field` and whose wavelengths have `weights`, over an observer at `altitude_km` with the horizon at `horizon` [radians].
     ///
     /// # Errors
     /// [`Error::Input`] if its wavelengths make no colour.
-    pub fn new(field: &LightField, profile: &OpticalProfile, altitude_km: f64, horizon: f64) -> Result<Self> {
+    pub fn new(
+        (field, profile, weights): (&LightField, &OpticalProfile, &'a WeightsOfAnySource),
+        altitude_km: f64,
+        horizon: f64,
+    ) -> Result<Self> {
         if profile.wavelengths_nm.len() < 4 {
             return Err(Error::input(
                 "wavelengths_nm",
@@ -65,7 +69,7 @@ impl DiffuseAir {
         });
         let (scattering, extinction) = vertical_optical_depths(profile, altitude_km);
         Ok(Self {
-            wavelengths_nm: profile.wavelengths_nm.clone(),
+            weights,
             horizon,
             transmittance,
             scattering_share: scattering.iter().zip(&extinction).map(|(s, e)| if *e > 0.0 { s / e } else { 0.0 }).collect(),
@@ -106,6 +110,8 @@ pub(super) struct DiffuseSky<D, const N: usize> {
     /// From east, north, up to the frame of the component.
     to_frame: DMat3,
     horizon: f64,
+    /// Whether the light depends on the altitude alone.
+    round: bool,
     /// By side and altitude.
     tables: Arc<[Vec<AtAltitude<N>>; 2]>,
 }
@@ -116,18 +122,21 @@ impl<D: DiffuseLight<N> + Sync, const N: usize> DiffuseSky<D, N> {
         Self::new(light, to_frame, air, true)
     }
 
-    /// Light that is made in the air, as it arrives; x east, y north, z up.
-    pub fn within(light: D, air: &DiffuseAir) -> Self {
-        Self::new(light, DMat3::IDENTITY, air, false)
+    /// Light that comes from above the air and depends on the altitude alone; x east, y north, z up.
+    pub fn round_above(light: D, air: &DiffuseAir) -> Self {
+        Self { round: true, ..Self::new(light, DMat3::IDENTITY, air, true) }
+    }
+
+    /// Light that is made in the air, as it arrives, and depends on the altitude alone; x east, y north, z up.
+    pub fn round_within(light: D, air: &DiffuseAir) -> Self {
+        Self { round: true, ..Self::new(light, DMat3::IDENTITY, air, false) }
     }
 
     fn new(light: D, to_frame: DMat3, air: &DiffuseAir, above: bool) -> Self {
         let fine: Vec<f64> = (observer::RANGE_NM.0..=observer::RANGE_NM.1).map(f64::from).collect();
         let spectra = light.spectra(&fine);
         let weights = spectra.each_ref().map(|spectrum| {
-            xyz_weights(&air.wavelengths_nm, |wavelength| {
-                spectrum[(wavelength - fine[0]).round().clamp(0.0, fine.len() as f64 - 1.0) as usize]
-            })
+            air.weights.of(|wavelength| spectrum[(wavelength - fine[0]).round().clamp(0.0, fine.len() as f64 - 1.0) as usize])
         });
         let (means, upward_means) = hemisphere_means(&light, to_frame);
         let table = |side: usize| -> Vec<AtAltitude<N>> {
@@ -136,7 +145,7 @@ impl<D: DiffuseLight<N> + Sync, const N: usize> DiffuseSky<D, N> {
                 .map(|transmittance| at_altitude(air, side == 0, above, transmittance, &weights, (&means, &upward_means)))
                 .collect()
         };
-        Self { tables: Arc::new([table(0), table(1)]), light, to_frame, horizon: air.horizon }
+        Self { tables: Arc::new([table(0), table(1)]), light, to_frame, horizon: air.horizon, round: false }
     }
 }
 
@@ -211,14 +220,19 @@ impl<D: DiffuseLight<N> + Sync, const N: usize> SkyLight for DiffuseSky<D, N> {
         }
         let seen: [[f32; 3]; N] = std::array::from_fn(|part| mix(table[node].seen[part], table[node + 1].seen[part]));
         let z = altitude.sin();
-        for (out, &azimuth) in out.iter_mut().zip(azimuths) {
-            *out = scattered;
+        let light = |azimuth: f64| {
+            let mut sum = scattered;
             for (scalar, seen) in self.light.scalars(self.to_frame * direction(z, azimuth)).iter().zip(&seen) {
                 for k in 0..3 {
-                    out[k] += *scalar as f32 * seen[k];
+                    sum[k] += *scalar as f32 * seen[k];
                 }
             }
+            sum
+        };
+        if self.round {
+            return out.fill(light(0.0));
         }
+        out.iter_mut().zip(azimuths).for_each(|(out, &azimuth)| *out = light(azimuth));
     }
 
     fn horizon_altitude(&self) -> f64 {

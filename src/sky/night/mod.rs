@@ -20,7 +20,6 @@ use crate::error::Result;
 use crate::light::LightField;
 use crate::progress::Progress;
 use diffuse::{DiffuseAir, DiffuseSky};
-use glam::DMat3;
 
 /// Altitude of the Sun below which `When::Auto` shows the night [degrees].
 const SUNSET_DEG: f64 = 0.0;
@@ -90,7 +89,10 @@ impl Sky {
         scales: &LayerScales,
         layers: &mut Layers,
     ) -> Result<()> {
-        let air = DiffuseAir::new(field, self.atmosphere().profile(), self.altitude_km(), self.horizon())?;
+        let air = {
+            let air = self.atmosphere();
+            DiffuseAir::new((field, air.profile(), air.weights()), self.altitude_km(), self.horizon())?
+        };
         let to_icrs = bodies.observer.to_horizon().transpose();
         let smooth = |light| Part { smooth: vec![light], ..Default::default() };
         let wanted = |layer: Layer| scales.of(layer) > 0.0;
@@ -105,13 +107,13 @@ impl Sky {
         }
         if wanted(Layer::Airglow) {
             let airglow = Airglow::new(options.solar_flux_sfu, 1.0, self.elevation_m())?;
-            let light = DiffuseSky::above(airglow, DMat3::IDENTITY, &air);
+            let light = DiffuseSky::round_above(airglow, &air);
             layers.add(Layer::Airglow, scales.of(Layer::Airglow), smooth(Box::new(light)));
         }
         if let Some(towns) = options.light_pollution()?
             && wanted(Layer::LightPollution)
         {
-            let light = DiffuseSky::within(towns, &air);
+            let light = DiffuseSky::round_within(towns, &air);
             layers.add(Layer::LightPollution, scales.of(Layer::LightPollution), smooth(Box::new(light)));
         }
         Ok(())

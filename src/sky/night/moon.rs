@@ -6,7 +6,7 @@ use crate::celestial::{MoonDisc, MoonView};
 use crate::ephemeris::{Bodies, MoonState};
 use crate::error::Result;
 use crate::light::LightField;
-use crate::spectrum::{solar, xyz_weights};
+use crate::spectrum::{WeightsOfAnySource, solar};
 use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::DVec3;
 
@@ -30,14 +30,14 @@ pub(in super::super) fn moon(bodies: &Bodies) -> Result<MoonDisc> {
     })
 }
 
-/// Weights that turn radiance per unit irradiance of the Moon into XYZ at the nodes `wavelengths_nm`.
-pub(in super::super) fn moonlight_weights(moon: &MoonDisc, wavelengths_nm: &[f64]) -> Vec<[f64; 3]> {
+/// Weights that turn radiance per unit irradiance of the Moon into XYZ.
+pub(in super::super) fn moonlight_weights(moon: &MoonDisc, weights: &WeightsOfAnySource) -> Vec<[f64; 3]> {
     let integrals = moon.component_integrals();
-    xyz_weights(wavelengths_nm, |wavelength| solar::irradiance(wavelength, 1.0) * irradiance_ratio(moon, &integrals, wavelength))
+    weights.of(|wavelength| solar::irradiance(wavelength, 1.0) * irradiance_ratio(moon, integrals, wavelength))
 }
 
 /// The Moon's irradiance outside the air over the Sun's at 1 au, for the integrals of its components.
-pub(in super::super) fn irradiance_ratio(moon: &MoonDisc, integrals: &[f64], wavelength_nm: f64) -> f64 {
+fn irradiance_ratio(moon: &MoonDisc, integrals: &[f64], wavelength_nm: f64) -> f64 {
     integrals.iter().enumerate().map(|(c, integral)| integral * moon.spectrum(c, wavelength_nm)).sum()
 }
 
@@ -73,20 +73,20 @@ impl Sky {
         if altitude + vertical_radius <= horizon {
             return Ok(None);
         }
-        let moon = moon(bodies)?;
-        let nodes = &self.atmosphere().profile().wavelengths_nm;
+        let moon = self.moon(bodies)?;
         let transmittance = self.transmittance_towards(field, altitude.max(horizon));
         let mut colours: [Vec<f64>; 3] = Default::default();
         for component in 0..moon.components() {
-            let weights =
-                xyz_weights(nodes, |wavelength| solar::irradiance(wavelength, 1.0) * moon.spectrum(component, wavelength));
+            let source = |wavelength| solar::irradiance(wavelength, 1.0) * moon.spectrum(component, wavelength);
+            let weights = self.atmosphere().weights().of(source);
             for (k, colours) in colours.iter_mut().enumerate() {
                 colours.push(transmittance.iter().zip(&weights).map(|(transmittance, weight)| transmittance * weight[k]).sum());
             }
         }
         let direction = moon.view().direction;
         let right = direction.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
-        let map = MoonMap { right, up: right.cross(direction), radius: moon.view().angular_radius(), colours, moon };
+        let map =
+            MoonMap { right, up: right.cross(direction), radius: moon.view().angular_radius(), colours, moon: moon.clone() };
         let integrals = map.moon.component_integrals();
         let whole =
             [0, 1, 2].map(|k| integrals.iter().zip(&map.colours[k]).map(|(integral, colour)| integral * colour).sum::<f64>());

@@ -6,7 +6,6 @@ use crate::celestial::{StarSpectra, planet_irradiance, stars_to};
 use crate::ephemeris::{Bodies, StarFrame, direction_from_horizontal, horizontal_from_direction};
 use crate::error::Result;
 use crate::light::LightField;
-use crate::spectrum::xyz_weights;
 use crate::time::JulianDate;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -62,7 +61,7 @@ impl Sky {
     /// The planets above the horizon.
     pub(super) fn planet_points(&self, field: &LightField, bodies: &Bodies) -> Result<Vec<Point>> {
         let nodes = &self.atmosphere().profile().wavelengths_nm;
-        let weights = xyz_weights(nodes, |_| 1.0);
+        let weights = self.atmosphere().weights().of(|_| 1.0);
         let horizon = self.horizon();
         let points = bodies.planets.iter().filter_map(|state| {
             let altitude = state.body.apparent_altitude_deg.to_radians();
@@ -81,7 +80,7 @@ impl Sky {
     /// The stars of magnitude V <= `limit` above the horizon.
     pub(super) fn star_points(&self, field: &LightField, bodies: &Bodies, limit: f64) -> Result<Vec<Point>> {
         let nodes = &self.atmosphere().profile().wavelengths_nm;
-        let weights = xyz_weights(nodes, |_| 1.0);
+        let weights = self.atmosphere().weights().of(|_| 1.0);
         let spectra = StarSpectra::new(nodes);
         let extinction = Extinction::new(self, field);
         let colours: Vec<Vec<[f64; 3]>> =
