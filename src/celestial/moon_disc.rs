@@ -30,7 +30,7 @@ use std::sync::{Arc, LazyLock};
 const EARTH_SPREAD_DEG: f64 = 0.67;
 
 /// Nodes of the quadratures over the disc, in photometric longitude and latitude.
-const NODES: usize = 64;
+const NODES: usize = 128;
 
 static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| legendre(NODES));
 
