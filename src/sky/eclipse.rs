@@ -6,7 +6,7 @@
 //! ```text
 //! share of the ground = (V E_sun + E_sky left) / (E_sun + E_sky),
 //! ```
-//! horizontal irradiances without and with the eclipse; where the air before it is opaque, it has the share of the sky at the horizon.
+//! horizontal irradiances without and with the eclipse; the air before it has the share of the sky as far above the horizontal.
 
 use super::SkyLight;
 use super::disc::{Disc, Surface, SurfaceMap};
@@ -80,7 +80,7 @@ impl Gain {
 
     /// At `altitude` [radians].
     pub fn at(&self, altitude: f64) -> f64 {
-        let sky = gain_of_sky(self.uncovered, altitude);
+        let sky = gain_of_sky(self.uncovered, altitude.abs());
         if altitude >= self.horizon {
             return sky;
         }

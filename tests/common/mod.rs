@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 pub mod airs;
+pub mod night;
 
 use skyprobe::atmosphere::{Component, OpticalProfile, Phase};
 use std::collections::HashMap;
