@@ -2,12 +2,14 @@
 //!
 //! A component is a sum of scalars s times fixed spectra F ([`crate::celestial::DiffuseLight`]). Light from above the air arrives as
 //! ```text
-//! L = s F T + (1 - T) w F S / 2 (1 + A T_d),      S = mean of s over the sky,
+//! L = s F T + (1 - T) w F (S + A E) / 2,       S, H = means of s over the sky by solid angle and weighted with the cosine,
+//! E = H (T_d + R) / (1 - A R),                 R = w (1 - T_d) / 2,
 //! ```
-//! with T the transmittance of the ray (forward peaks count as transmitted), w the vertical single scattering albedo of the air, A the albedo of the ground and T_d the transmittance to
-//! diffuse light: what is scattered into the ray comes from a sky of mean brightness above and a lit ground below, and is scattered once and alike into all directions.
-//! That keeps most of the light that extinction alone would lose, as in Leinert et al. (1998, section 7: diffuse light is dimmed by about three quarters of the optical depth that dims a star). The ground is
-//! lit by the sky's mean brightness, weighted with the cosine, through T_d, and by what is scattered.
+//! with T the transmittance of the ray (forward peaks count as transmitted), w the vertical single scattering albedo of the air, A the albedo of the ground, T_d the transmittance to
+//! diffuse light and pi E F the irradiance of the ground: what is scattered into the ray comes from a sky of mean brightness above and a lit ground below, and is scattered once and alike into
+//! all directions; R is what the air sends back.
+//! That keeps most of the light that extinction alone would lose, as in Leinert et al. (1998, section 7: diffuse light is dimmed by about three quarters of the optical depth that dims a star).
+//! Of even light conservative air of optical depth 0.1, 0.2, 0.5 lets through 0.916, 0.852, 0.722, where the exact values are 0.916, 0.849, 0.704.
 
 use super::super::SkyLight;
 use super::super::disc::Disc;
@@ -162,14 +164,13 @@ fn at_altitude<const N: usize>(
         for (w, weight) in weights[part].iter().enumerate() {
             let (t, share, diffuse, albedo) =
                 (transmittance[w], air.scattering_share[w], air.diffuse_transmittance[w], air.albedo[w]);
-            let source = 0.5 * share * means[part] * (1.0 + albedo * diffuse);
+            let sent_back = 0.5 * share * (1.0 - diffuse);
+            let lit = upward_means[part] * (diffuse + sent_back) / (1.0 - albedo * sent_back);
+            let source = 0.5 * share * (means[part] + albedo * lit);
             let (direct, added) = match (sky, above) {
                 (true, true) => (t, (1.0 - t) * source),
                 (true, false) => (1.0, 0.0),
-                (false, true) => {
-                    let lit = upward_means[part] * (diffuse + 0.5 * share * (1.0 - diffuse));
-                    (0.0, albedo * lit * t + (1.0 - t) * source)
-                }
+                (false, true) => (0.0, albedo * lit * t + (1.0 - t) * source),
                 (false, false) => (0.0, albedo * upward_means[part] * t + (1.0 - t) * means[part]),
             };
             for k in 0..3 {
@@ -243,3 +244,6 @@ impl<D: DiffuseLight<N> + Sync, const N: usize> SkyLight for DiffuseSky<D, N> {
         Vec::new()
     }
 }
+
+#[cfg(test)]
+mod tests;
