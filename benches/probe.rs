@@ -1,13 +1,15 @@
-//! What a probe costs once the light is there: pixels, with the dome of a clear sky and with a sky that costs nothing, and files.
+//! What a probe costs once the light is there: pixels, with the dome of a clear sky, with a night and with a sky that costs nothing; getting a night and a day ready; files.
 //! `cargo bench --bench probe`.
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use skyprobe::atmosphere::AirParameters;
+use skyprobe::ephemeris::{Place, SunModel};
 use skyprobe::io::{FileOptions, Metadata, save};
 use skyprobe::probe::{ProbeSettings, render};
 use skyprobe::progress::Progress;
 use skyprobe::quality::Quality;
-use skyprobe::sky::{Atmosphere, Disc, Sky, SkyDome, SkyLight};
+use skyprobe::sky::{Atmosphere, Disc, LightOptions, NightOptions, Sky, SkyDome, SkyLight};
+use skyprobe::time::{Time, ZoneChoice};
 use std::sync::Arc;
 
 /// A sky that is the same all along a circle: what is left of the time is the probe's own.
@@ -51,6 +53,38 @@ fn pixels(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A sky of clear air on the tropic at `time`, with everything that shines at night.
+fn sky_at(air: &Arc<Atmosphere>, time: &str) -> Sky {
+    let time = Time::parse(time, ZoneChoice::InText).unwrap();
+    let night = NightOptions { bortle: Some(3), ..Default::default() };
+    Sky::new(Place::new(20.0, -156.0, 0.0).unwrap(), time, SunModel::Iau, Arc::clone(air)).unwrap().with_night(night).unwrap()
+}
+
+/// The full Moon high; by day with the Moon up and below the horizon.
+fn night(criterion: &mut Criterion) {
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Standard, true).unwrap());
+    air.solve(&Progress::silent()).unwrap();
+    let ready = |sky: &Sky| sky.light_by(&LightOptions::default(), &Progress::silent()).unwrap();
+    let mut group = criterion.benchmark_group("night");
+    group.sample_size(10);
+    for (name, time) in [
+        ("ready, full Moon", "2018-01-02T00:30:00-10:00"),
+        ("ready, eclipsed Moon", "2018-01-31T02:20:00-10:00"),
+        ("ready, day with the Moon", "2018-01-09T11:00:00-10:00"),
+        ("ready, day without", "2018-01-02T14:30:00-10:00"),
+    ] {
+        group.bench_function(name, |bencher| {
+            bencher.iter_batched(|| sky_at(&air, time), |sky| ready(&sky), BatchSize::PerIteration);
+        });
+    }
+    let light = ready(&sky_at(&air, "2018-01-02T00:30:00-10:00"));
+    let settings = ProbeSettings { width: 2048, ..Default::default() };
+    group.bench_function("pixels, full Moon, 2048 x 1024", |bencher| {
+        bencher.iter(|| render(&light, &settings, &Progress::silent()).unwrap());
+    });
+    group.finish();
+}
+
 fn files(criterion: &mut Criterion) {
     let folder = tempfile::tempdir().unwrap();
     let probe = render(&dome(), &ProbeSettings { width: 4096, ..Default::default() }, &Progress::silent()).unwrap();
@@ -65,5 +99,5 @@ fn files(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, pixels, files);
+criterion_group!(benches, pixels, night, files);
 criterion_main!(benches);
