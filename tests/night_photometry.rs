@@ -1,17 +1,16 @@
-//! The night as a probe shows it: photometry against published values, energy at every resolution, layers that add up.
+//! Single lights of the night as a probe shows them: moonlight, zodiacal light, extinction of stars; layers that add up to the whole.
 
 mod common;
 
 use common::night::{AIR, NO_AIR, light, lux_of, place, sky, time};
 use glam::DVec3;
-use skyprobe::celestial::photometry::{S10_LUMINANCE, SQUARE_DEGREES_PER_STERADIAN, surface_brightness_of_luminance};
+use skyprobe::celestial::photometry::surface_brightness_of_luminance;
 use skyprobe::ephemeris::{SunModel, icrs_to_ecliptic_j2000};
-use skyprobe::probe::{Grid, Probe, ProbeSettings, Rows, render};
+use skyprobe::probe::{Probe, ProbeSettings, render};
 use skyprobe::progress::Progress;
 use skyprobe::sky::{Layer, LayerScales, LightOptions, NightOptions, Sky, SkyLight, When};
 use skyprobe::spectrum::{ColorSpace, observer, solar};
 use skyprobe::units::LUMINOUS_EFFICACY;
-use std::f64::consts::PI;
 
 /// Luminance [cd m-2] of the smooth light of `light` towards `direction`.
 fn luminance(light: &dyn SkyLight, direction: DVec3) -> f64 {
@@ -23,21 +22,6 @@ fn luminance(light: &dyn SkyLight, direction: DVec3) -> f64 {
 fn probe(light: &dyn SkyLight, settings: ProbeSettings) -> Probe {
     render(light, &ProbeSettings { color_space: ColorSpace::Xyz, ..settings }, &Progress::silent()).unwrap()
 }
-
-/// Irradiance [W m-2] of all pixels of an XYZ probe, each on a surface that faces it.
-fn energy(probe: &Probe) -> [f64; 3] {
-    let grid = Grid::new(&probe.settings);
-    let rows = probe.pixels.chunks_exact(3 * probe.width).enumerate();
-    rows.fold([0.0; 3], |mut sum, (row, pixels)| {
-        let solid_angle = grid.footprint(0, row).solid_angle;
-        for pixel in pixels.as_chunks::<3>().0 {
-            (0..3).for_each(|k| sum[k] += solid_angle * f64::from(pixel[k]));
-        }
-        sum
-    })
-}
-
-const MOONLESS: (f64, f64, f64, &str) = (-24.6, -70.4, 2600.0, "2021-07-10T00:00:00-04:00");
 
 #[test]
 fn the_full_moon_near_the_zenith_gives_a_quarter_of_a_lux() {
@@ -54,72 +38,6 @@ fn the_full_moon_near_the_zenith_gives_a_quarter_of_a_lux() {
     assert!((0.2..0.32).contains(&lux), "{lux}");
     assert!((0.19..0.27).contains(&parts.moon_normal_lx), "{parts:?}");
     assert!((lux / parts.global_horizontal_lx - 1.0).abs() < 0.005, "{lux} {parts:?}");
-}
-
-/// V of the zenith [mag arcsec-2] as observatories give it, without the stars of the catalogue. A luminance is a magnitude only for a colour: zodiacal light and starlight are as yellow as the
-/// Sun, 133 333 lx at V -26.76 (3 % more light than a white star gives), the airglow is defined in units of white stars.
-fn zenith_brightness(sky: &Sky) -> f64 {
-    let light = light(sky);
-    let of = |layer: Layer| luminance(&light.only(layer), DVec3::Z);
-    let sunlike_s10 = 133_333.0 * 10_f64.powf(-0.4 * (26.76 + 10.0)) * SQUARE_DEGREES_PER_STERADIAN;
-    let s10 = of(Layer::Airglow) / S10_LUMINANCE + (of(Layer::Zodiacal) + of(Layer::MilkyWay)) / sunlike_s10;
-    surface_brightness_of_luminance(s10 * S10_LUMINANCE)
-}
-
-#[test]
-fn a_moonless_sky_has_its_published_darkness() {
-    // The zenith far from ecliptic and Milky Way.
-    let dark = |solar_flux_sfu: f64| {
-        let night = NightOptions { solar_flux_sfu, ..Default::default() };
-        sky(50.0, 0.0, 0.0, "2022-03-04T04:00:00Z").with_night(night).unwrap()
-    };
-    assert!(dark(130.0).sun().altitude_deg < -25.0 && dark(130.0).bodies_of_place().unwrap().moon.body.altitude_deg < -20.0);
-    let [minimum, mean, maximum] = [80.0, 130.0, 200.0].map(|flux| zenith_brightness(&dark(flux)));
-    let lux = lux_of(&light(&dark(130.0)));
-    println!("moonless: zenith {minimum:.2}, {mean:.2}, {maximum:.2} mag arcsec-2 at solar minimum, mean, maximum; {lux:.6} lx");
-    // checked against: Benn & Ellison 1998, New Astronomy Reviews 42, 503: V 21.9 at solar minimum, 0.4 brighter at maximum; Patat 2003, A&A 400, 1183: 21.6 at maximum
-    assert!((minimum - 21.9).abs() < 0.1 && (21.6..22.0).contains(&mean), "{minimum} {mean}");
-    assert!((0.35..0.55).contains(&(minimum - maximum)), "{minimum} {maximum}");
-    // checked against: RCA Electro-Optics Handbook (1974), natural illumination: 0.0011 lx on a clear night without a Moon
-    assert!((0.0005..0.002).contains(&lux), "{lux}");
-    let (latitude, longitude, elevation, when) = MOONLESS;
-    let below_the_milky_way = lux_of(&light(&sky(latitude, longitude, elevation, when)));
-    println!("below the Milky Way: {below_the_milky_way:.6} lx");
-    assert!((0.0005..0.002).contains(&below_the_milky_way));
-}
-
-#[test]
-fn stars_have_the_same_energy_at_every_size() {
-    let (latitude, longitude, elevation, when) = MOONLESS;
-    let light = light(&sky(latitude, longitude, elevation, when));
-    let stars = light.only(Layer::Stars);
-    let points = stars.points();
-    assert!(points.len() > 25_000, "{}", points.len());
-    let sum: [f64; 3] = std::array::from_fn(|k| points.iter().map(|point| point.irradiance[k]).sum());
-    for rows in [Rows::Centre, Rows::Corner] {
-        for width in [512, 2048, 8192] {
-            let drawn = energy(&probe(&stars, ProbeSettings { width, rows, ..Default::default() }));
-            for k in 0..3 {
-                assert!((drawn[k] / sum[k] - 1.0).abs() < 1e-5, "{rows:?} {width}: {drawn:?} {sum:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn naked_eye_stars_without_air_give_twenty_three_s10() {
-    let mut lux = 0.0;
-    for latitude in [90.0, -90.0] {
-        let sky = Sky::new(place(latitude, 0.0, 0.0), time("2021-07-10T00:00:00Z"), SunModel::Iau, NO_AIR.clone()).unwrap();
-        let sky = sky.with_night(NightOptions { when: When::Always, star_limit: 6.5, ..Default::default() }).unwrap();
-        let stars = light(&sky);
-        lux += stars.only(Layer::Stars).points().iter().map(|point| LUMINOUS_EFFICACY * point.irradiance[1]).sum::<f64>();
-    }
-    let s10 = lux / (4.0 * PI) / S10_LUMINANCE;
-    println!("stars of V <= 6.5: {s10:.2} S10(V)");
-    // checked against: Bright Star Catalogue to V 6.5: 23 S10(V) on average over the sphere
-    assert!((s10 - 23.0).abs() < 2.0, "{s10}");
-    assert!((SQUARE_DEGREES_PER_STERADIAN / 3282.8 - 1.0).abs() < 1e-4);
 }
 
 #[test]
