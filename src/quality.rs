@@ -99,7 +99,7 @@ impl Quality {
             Self::High => Numbers {
                 wavelengths: 32,
                 altitudes: 28,
-                solar_zenith_angles: 60,
+                solar_zenith_angles: 54,
                 iteration_altitudes: 18,
                 iteration_solar_zenith_angles: 44,
                 shells: 19,
