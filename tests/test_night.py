@@ -191,13 +191,13 @@ def test_a_moonless_night_is_as_dark_as_it_is_measured(air: sp.Atmosphere) -> No
     place, time = {"latitude": 55.0, "longitude": 0.0}, "2005-02-10T05:00:00Z"
     quiet, mean, active = (sky_at(air, place, time, night=sp.Night(solar_flux_sfu=flux)) for flux in (70.0, 130.0, 200.0))
     # checked against: Benn & Ellison 1998, New Astronomy Reviews 42, 503: V 21.9 at solar minimum at high latitudes.
-    assert zenith_magnitude(quiet) == pytest.approx(21.95, abs=0.2)
+    assert zenith_magnitude(quiet) == pytest.approx(21.9, abs=0.2)
     # checked against: natural nights have V 21.6 to 22.0 (Patat 2003, A&A 400, 1183; Cinzano, Falchi & Elvidge 2001, MNRAS 328, 689).
     assert zenith_magnitude(mean) == pytest.approx(21.8, abs=0.15)
     light = mean.illuminance()
     # checked against: starlit and airglow-lit ground of a moonless night, 0.0005-0.002 lx.
     assert 0.0005 < quiet.illuminance().global_horizontal_lx < light.global_horizontal_lx < 0.002
-    assert active.illuminance().global_horizontal_lx > 1.05 * light.global_horizontal_lx and light.moon_normal_lx == 0.0
+    assert active.illuminance().global_horizontal_lx > 1.1 * light.global_horizontal_lx and light.moon_normal_lx == 0.0
     # The brightness that a town is given is that of its zenith, natural light of 22.0 included: our own natural light takes the place of that.
     town = sky_at(air, place, time, night=sp.Night(zenith_brightness=18.0))
     assert zenith_magnitude(town) == pytest.approx(18.0, abs=0.03)

@@ -1,7 +1,9 @@
 use super::*;
 use crate::atmosphere::AirParameters;
+use crate::error::Error;
 use crate::quality::Quality;
-use crate::sky::SkyLight;
+use crate::sky::{PolarisingFilter, SkyDome, SkyLight};
+use glam::DVec3;
 
 fn sky(atmosphere: &Arc<Atmosphere>, altitude_deg: f64, elevation_m: f64) -> Sky {
     Sky::with_sun(altitude_deg, 200.0, elevation_m, Arc::clone(atmosphere)).unwrap()
