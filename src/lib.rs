@@ -5,6 +5,7 @@
 //! directions ──> celestial (light outside the air of all that shines at night)
 //! air ──> atmosphere (optical profile) ──> light: solve ──> light field      (once for one air)
 //! light field + directions + observer ──> light: gather ──> sky ──> probe ──> io: EXR, HDR, PNG
+//! probe, or a scene lit by it ──> post (glare, tone mapping) ──> io
 //! ```
 //!
 //! Data flows one way: a folder knows nothing of what comes after it.
@@ -27,6 +28,7 @@ pub mod ephemeris;
 pub mod error;
 pub mod io;
 pub mod light;
+pub mod post;
 pub mod probe;
 pub mod progress;
 #[cfg(feature = "python")]

@@ -1,0 +1,9 @@
+//! What is done to a finished high dynamic range picture, a probe or a scene that it lit: glare in the eye, and tone mapping for a screen.
+//!
+//! ```text
+//! picture ──> repair (what no light can be) ──> glare ──> tone mapping ──> 8 or 16 bits
+//! ```
+
+pub mod picture;
+
+pub use picture::{Picture, Repairs, View};

@@ -1,0 +1,185 @@
+//! A linear picture with what its numbers and its pixels mean: all that glare and tone mapping need to know.
+
+use crate::error::{Error, Result, check_range};
+use crate::probe::{Extent, Probe, Projection, Rows};
+use crate::spectrum::color_space::ColorSpace;
+use crate::units::Scale;
+use rayon::prelude::*;
+
+/// Greatest width and height [pixels].
+pub const MAX_SIDE: usize = 32768;
+
+/// Largest value that is kept: what is brighter, infinity above all, becomes this. Sums of a whole picture of it stay finite.
+pub const LARGEST: f32 = 1e30;
+
+/// Where the pixels of a picture look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum View {
+    /// All directions, twice as wide as high: row 0 at the zenith, columns by azimuth, the left border joins the right one. A probe of the upper half of the
+    /// sky is the upper half of such a picture.
+    LatLong {
+        /// Where the centres of the rows lie.
+        rows: Rows,
+    },
+    /// A pinhole camera.
+    Perspective {
+        /// Angle between the left and the right border [degrees], above 0 to 179.
+        horizontal_field_of_view_deg: f64,
+    },
+    /// A circle, distance from its centre in proportion to the angle from the zenith.
+    Fisheye {
+        /// Angle between opposite borders [degrees], above 0 to 360.
+        field_of_view_deg: f64,
+    },
+}
+
+/// How many values of a picture were not those of light ([`Picture::repair`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Repairs {
+    /// Not a number: made 0.
+    pub not_a_number: usize,
+    /// Infinite, or over [`LARGEST`]: made [`LARGEST`] with its sign, negative ones 0.
+    pub infinite: usize,
+    /// Smaller than any normal number: made 0, as they would slow down all arithmetic.
+    pub denormal: usize,
+}
+
+impl Repairs {
+    /// Whether nothing had to be changed.
+    pub fn is_empty(self) -> bool {
+        self == Self::default()
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            not_a_number: self.not_a_number + other.not_a_number,
+            infinite: self.infinite + other.infinite,
+            denormal: self.denormal + other.denormal,
+        }
+    }
+}
+
+/// A linear picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Width [pixels].
+    pub width: usize,
+    /// Height [pixels].
+    pub height: usize,
+    /// Values, row-major from the upper left, (height, width, 3). Negative ones are colours outside the space.
+    pub pixels: Vec<f32>,
+    /// Primaries and white of the pixels.
+    pub color_space: ColorSpace,
+    /// Luminance of a pixel whose Y is 1 [cd m-2]; see [`Scale::white_luminance`].
+    pub white_luminance: f64,
+    /// Where the pixels look.
+    pub view: View,
+}
+
+impl Picture {
+    /// A picture of given `pixels`, row-major (height, width, 3).
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a size, `white_luminance` or field of view that no picture has; [`Error::Data`] if the number of values is not that of the size.
+    pub fn new(
+        width: usize,
+        height: usize,
+        pixels: Vec<f32>,
+        color_space: ColorSpace,
+        white_luminance: f64,
+        view: View,
+    ) -> Result<Self> {
+        for (name, side) in [("width", width), ("height", height)] {
+            if !(1..=MAX_SIDE).contains(&side) {
+                return Err(Error::input(name, side, format!("from 1 to {MAX_SIDE} pixels")));
+            }
+        }
+        check_range("white_luminance", white_luminance, 1e-9, 1e9, "cd m-2")?;
+        match view {
+            View::LatLong { .. } => {}
+            View::Perspective { horizontal_field_of_view_deg: angle } => {
+                check_range("field_of_view_deg", angle, 1e-3, 179.0, "degrees")?;
+            }
+            View::Fisheye { field_of_view_deg: angle } => {
+                check_range("field_of_view_deg", angle, 1e-3, 360.0, "degrees")?;
+            }
+        }
+        if pixels.len() != 3 * width * height {
+            return Err(Error::data(format!(
+                "a picture of {width} x {height} pixels has {} values, not {}",
+                pixels.len(),
+                3 * width * height
+            )));
+        }
+        Ok(Self { width, height, pixels, color_space, white_luminance, view })
+    }
+
+    /// Makes every value one that light can have, so that none spreads over the picture, and says how many were not.
+    pub fn repair(&mut self) -> Repairs {
+        self.pixels
+            .par_chunks_mut(1 << 14)
+            .map(|block| {
+                let mut found = Repairs::default();
+                for value in block.iter_mut().filter(|value| !(value.is_normal() && value.abs() <= LARGEST || **value == 0.0)) {
+                    if value.is_nan() {
+                        found.not_a_number += 1;
+                        *value = 0.0;
+                    } else if value.is_subnormal() {
+                        found.denormal += 1;
+                        *value = 0.0;
+                    } else {
+                        found.infinite += 1;
+                        *value = if *value > 0.0 { LARGEST } else { 0.0 };
+                    }
+                }
+                found
+            })
+            .reduce(Repairs::default, Repairs::and)
+    }
+}
+
+impl From<Probe> for Picture {
+    /// The picture of a probe, which a fisheye shows in full.
+    fn from(probe: Probe) -> Self {
+        let settings = &probe.settings;
+        let view = match settings.projection {
+            Projection::LatLong => View::LatLong { rows: settings.rows },
+            Projection::Fisheye => View::Fisheye {
+                field_of_view_deg: match settings.extent {
+                    Extent::Full => 360.0,
+                    Extent::Upper => 180.0,
+                },
+            },
+        };
+        let (color_space, white_luminance) = (settings.color_space, Scale::white_luminance(settings.scale));
+        Self { width: probe.width, height: probe.height, pixels: probe.pixels, color_space, white_luminance, view }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(pixels: Vec<f32>) -> Result<Picture> {
+        let view = View::Perspective { horizontal_field_of_view_deg: 50.0 };
+        Picture::new(2, 1, pixels, ColorSpace::LinRec709, 683.0, view)
+    }
+
+    #[test]
+    fn what_no_light_can_be_is_repaired_and_counted() {
+        let mut found = picture(vec![f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e-40, -0.25, 1e9]).unwrap();
+        let repairs = found.repair();
+        assert_eq!(repairs, Repairs { not_a_number: 1, infinite: 2, denormal: 1 });
+        assert_eq!(found.pixels, [0.0, LARGEST, 0.0, 0.0, -0.25, 1e9]);
+        assert!(found.repair().is_empty());
+    }
+
+    #[test]
+    fn impossible_pictures_are_refused() {
+        assert!(picture(vec![0.0; 5]).is_err());
+        let tilted = View::Perspective { horizontal_field_of_view_deg: 180.0 };
+        let error = Picture::new(2, 1, vec![0.0; 6], ColorSpace::LinRec709, 683.0, tilted).unwrap_err();
+        assert!(error.to_string().starts_with("field_of_view_deg = 180"), "{error}");
+        assert!(Picture::new(0, 1, vec![], ColorSpace::LinRec709, 683.0, tilted).is_err());
+    }
+}
