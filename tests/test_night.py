@@ -292,3 +292,15 @@ def test_wrong_layers_are_named(air: sp.Atmosphere) -> None:
     # A layer that this sky does not have is no mistake: by day there are no stars.
     day = sky_at(air, LUND, "2005-01-25T12:00:00+01:00")
     numpy.testing.assert_array_equal(day.render(width=64, layers={"stars": 5.0}).pixels, day.render(width=64).pixels)
+
+
+def test_the_moon_as_a_lamp_is_the_moon_of_the_probe(air: sp.Atmosphere) -> None:
+    sky = sky_at(air, LUND, FULL_MOON)
+    lamp = numpy.array(sky.moon_irradiance_rgb())
+    with_moon, without = (numpy.array(sky.render(width=512, layers=layers).irradiance()) for layers in ({}, {"moon": 0.0}))
+    sine = numpy.sin(numpy.radians(sky.moon.apparent_altitude_deg if sky.moon else 0.0))
+    assert lamp * sine == pytest.approx(with_moon - without, rel=2e-3)
+    assert 683.0 * lamp @ [0.2126, 0.7152, 0.0722] == pytest.approx(sky.illuminance().moon_normal_lx, rel=1e-3)
+    never = sky_at(air, LUND, FULL_MOON, night=sp.Night(when="never"))
+    assert never.moon_irradiance_rgb() == (0.0, 0.0, 0.0)
+    assert sky_at(air, LUND, "2005-01-25T12:00:00+01:00").moon_irradiance_rgb() == (0.0, 0.0, 0.0)

@@ -816,6 +816,17 @@ class Sky:
     ) -> tuple[float, float, float]:
         """Irradiance of the Sun's disc on a plane that faces it, in the units of a probe with this scale and colour space times sr."""
 
+    def moon_irradiance_rgb(
+        self,
+        *,
+        scale: _Scale = "blender",
+        color_space: _ColorSpace = "lin_rec709",
+        progress: _Progress | None = None,
+    ) -> tuple[float, float, float]:
+        """Irradiance of the Moon's disc on a plane that faces it, as ``sun_irradiance_rgb``; zeros if the Moon is below the horizon or the night is never
+        shown.
+        """
+
     def render(
         self,
         *,

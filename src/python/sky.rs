@@ -324,6 +324,21 @@ impl Sky {
         Ok(rgb.into())
     }
 
+    /// Irradiance of the Moon's disc on a plane that faces it, as ``sun_irradiance_rgb``; zeros if the Moon is below the horizon or the night is never
+    /// shown.
+    #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", progress = None))]
+    fn moon_irradiance_rgb(
+        &self,
+        py: Python<'_>,
+        scale: &str,
+        color_space: &str,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(f64, f64, f64)> {
+        let (scale, color_space) = (scale.parse()?, color_space.parse()?);
+        let rgb = work::run(py, progress, |progress| self.inner.moon_irradiance_rgb(scale, color_space, progress))?;
+        Ok(rgb.into())
+    }
+
     /// An image of the light from all directions.
     ///
     /// Parameters

@@ -2,7 +2,7 @@
 
 use super::atmosphere::Atmosphere;
 use super::eclipse::{self, eclipse};
-use super::night::{NightOptions, moon};
+use super::night::{NightOptions, When, moon};
 use crate::atmosphere::molecules;
 use crate::celestial::{MoonDisc, SolarEclipse};
 use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SunModel, bodies, sun_at};
@@ -148,6 +148,18 @@ impl Sky {
     pub fn sun_irradiance_rgb(&self, scale: Scale, color_space: ColorSpace, progress: &Progress) -> Result<[f64; 3]> {
         let xyz = self.sun_irradiance_xyz(self.field(progress)?)?;
         Ok(color_space.from_xyz(xyz.map(|v| v * scale.factor())))
+    }
+
+    /// Irradiance by the Moon's disc through the air on a surface that faces it, as [`Self::sun_irradiance_rgb`]; nothing if the night is never shown, the Moon is below the horizon
+    /// or the sky has no place and time.
+    ///
+    /// # Errors
+    /// As [`Self::illuminance`].
+    pub fn moon_irradiance_rgb(&self, scale: Scale, color_space: ColorSpace, progress: &Progress) -> Result<[f64; 3]> {
+        let field = self.field(progress)?;
+        let seen = self.bodies.as_ref().filter(|_| self.night.when != When::Never);
+        let disc = seen.map(|bodies| self.moon_disc(field, bodies)).transpose()?.flatten();
+        Ok(disc.map_or([0.0; 3], |disc| color_space.from_xyz(disc.irradiance.map(|v| v * scale.factor()))))
     }
 
     /// The Moon outside the air.

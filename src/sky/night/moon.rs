@@ -65,7 +65,7 @@ impl SurfaceMap for MoonMap {
 
 impl Sky {
     /// The Moon's disc, if any of it is above the horizon.
-    pub(super) fn moon_disc(&self, field: &LightField, bodies: &Bodies) -> Result<Option<Disc>> {
+    pub(in super::super) fn moon_disc(&self, field: &LightField, bodies: &Bodies) -> Result<Option<Disc>> {
         let MoonState { body, .. } = &bodies.moon;
         let radius = (0.5 * body.angular_diameter_deg).to_radians();
         let vertical_radius = radius * self.refraction().flattening(body.altitude_deg, body.angular_diameter_deg);
