@@ -1,15 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Skyprobe for Blender: the light of the sky for a place and a time, as the world of a scene.
 
-    properties ──> operators ──> jobs (a thread, the skyprobe library, no bpy) ──> scene_probe ──> world_nodes, sun_lamp
+    settings ──> values ──> jobs (threads, the skyprobe library, no bpy) ──> scene_probe ──> world_nodes, lamps
+        └──> live (each change, at once, coarsely)
+    operators, sequence (one probe, one a frame)
 
-`properties` holds what the user sets, `panels` shows it, `compat` knows what differs between Blender versions.
-Conventions: +X east, +Y north (until the user turns north), +Z up.
+`settings` holds what the user sets, `panels` shows it, `configuration` and `presets` keep it in files, `handlers` follows Blender's own
+events, `compat` knows what differs between Blender versions. Conventions: +X east, +Y north (until the user turns north), +Z up.
 """
 
-from . import operators, panels, properties
+from . import handlers, operators, panels, presets, sequence, settings, viewport_drawing
+from . import live
 
-MODULES = (properties, operators, panels)
+# Read where the add-on runs from its folder, without blender_manifest.toml, which replaces it for an installed extension.
+bl_info = {
+    "name": "Skyprobe",
+    "description": "Physically based light of the sky for a place and a time",
+    "author": "The skyprobe contributors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "World properties; sidebar of the 3D view",
+    "category": "Lighting",
+}
+
+# In the order in which they need each other.
+MODULES = (settings, operators, sequence, presets, panels, viewport_drawing, handlers)
 
 
 def register():
@@ -20,3 +35,4 @@ def register():
 def unregister():
     for module in reversed(MODULES):
         module.unregister()
+    live.unregister()

@@ -72,9 +72,9 @@ def write_zip(target, wheel, manifest):
     """Write the extension to `target`, the same bytes for the same input."""
     content = {"blender_manifest.toml": manifest.encode(), f"wheels/{wheel.name}": wheel.read_bytes()}
     content["LICENSE"] = (ADDON / "LICENSE").read_bytes()
-    for source in ADDON.glob("*.py"):
-        if source.name != Path(__file__).name:
-            content[source.name] = source.read_bytes()
+    for source in (*ADDON.rglob("*.py"), *ADDON.glob("presets/*.json")):
+        if source != Path(__file__).resolve():
+            content[source.relative_to(ADDON).as_posix()] = source.read_bytes()
     with zipfile.ZipFile(target, "w") as archive:
         for name in sorted(content):
             # A fresh ZipInfo carries a fixed date.

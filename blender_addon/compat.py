@@ -40,3 +40,85 @@ def set_importance_map(world, width):
     limit = cycles.bl_rna.properties["sample_map_resolution"].hard_max
     cycles.sampling_method = "MANUAL"
     cycles.sample_map_resolution = min(width, limit)
+
+
+def set_sun_extraction(world, threshold, angle=None):
+    """Let EEVEE make a sun of angular diameter `angle` [radians] out of what is brighter than `threshold`; 0 for no sun.
+
+    Before 4.2 EEVEE takes no sun out of a world.
+    """
+    if bpy.app.version < (4, 2, 0):
+        return
+    world.sun_threshold = threshold
+    if angle is not None:
+        world.sun_angle = angle
+
+
+def layout_progress(layout, factor, text):
+    """Show that `factor` (0 to 1) of a work is done. Before 4.0 there is no bar, only the text."""
+    if bpy.app.version < (4, 0, 0):
+        layout.label(text=text)
+    else:
+        layout.progress(factor=factor, text=text)
+
+
+def is_rendering():
+    """Whether a final render runs, under which no data may change."""
+    return bpy.app.is_job_running("RENDER")
+
+
+def user_folder(name):
+    """Return the path of a folder of the user's for the add-on, made if it is missing."""
+    try:
+        return bpy.utils.extension_path_user(__package__, path=name, create=True)
+    except (AttributeError, ValueError):
+        # Not an extension: run from a folder of add-ons, or by a Blender that has none.
+        return bpy.utils.user_resource("SCRIPTS", path=f"presets/skyprobe/{name}", create=True)
+
+
+def curves(thing):
+    """Return the animation curves of `thing`, of whatever shape its action is."""
+    data = thing.animation_data
+    action = data.action if data else None
+    if action is None:
+        return []
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    # From 5.0 on curves are in bags by slot.
+    bags = (strip.channelbag(data.action_slot) for layer in action.layers for strip in layer.strips)
+    return [curve for bag in bags if bag is not None for curve in bag.fcurves]
+
+
+def is_animated(thing, path):
+    """Whether a property of `thing` whose data path begins with `path` has keyframes or a driver."""
+    data = thing.animation_data
+    drivers = data.drivers if data else ()
+    return any(curve.data_path.startswith(path) for curve in (*curves(thing), *drivers))
+
+
+def make_linear(*things):
+    """Let every curve of ours of `things` go straight from key to key."""
+    for thing in things:
+        for curve in curves(thing):
+            if isinstance(thing, bpy.types.Scene) and not curve.data_path.startswith("skyprobe."):
+                continue
+            for point in curve.keyframe_points:
+                point.interpolation = "LINEAR"
+            curve.update()
+
+
+def remove_curve(thing, data_path):
+    """Take the animation of one property of `thing` away, if it has one."""
+    data = thing.animation_data
+    action = data.action if data else None
+    for curve in curves(thing):
+        if curve.data_path != data_path:
+            continue
+        if hasattr(action, "fcurves"):
+            action.fcurves.remove(curve)
+            continue
+        for layer in action.layers:
+            for strip in layer.strips:
+                bag = strip.channelbag(data.action_slot)
+                if bag is not None:
+                    bag.fcurves.remove(curve)

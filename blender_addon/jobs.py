@@ -1,48 +1,199 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The computation of a probe, on a thread of its own. Nothing here touches bpy, which only the main thread may use."""
+"""What is computed for Blender, on whatever thread asks. Nothing here touches bpy, which only the main thread may use."""
 
+import json
+import math
 import threading
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
+import numpy as np
 import skyprobe
 
 # What a user can understand and mend: wrong values, files that cannot be written, a library with damaged data.
 USER_ERRORS = (ValueError, OSError, skyprobe.DataError)
 
+# Luminance of linear Rec.709 over the library's radiance unit for Blender [lm/W].
+LUMINOUS_EFFICACY = 683.0
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+
 
 @dataclass(frozen=True)
-class ProbeRequest:
-    """What to compute, in plain values."""
+class SkyRequest:
+    """What light to compute, in plain values."""
 
     air: dict  # keywords of skyprobe.Atmosphere
     place: dict  # latitude, longitude [degrees], elevation_m [m]
     time: str  # ISO 8601
     width: int  # [pixels]
     sun_in_map: bool  # draw the Sun's disc into the map
-    lamp_color_space: str  # of ProbeResult.sun_irradiance
-    path: str  # file to write, absolute
-    pack: bool  # move the file into the .blend afterwards
-    polarising_filter: dict | None = None  # keywords of skyprobe.PolarisingFilter
+    lamp_color_space: str  # of Lamp.irradiance
+    moon_in_map: bool = True  # draw the Moon's disc into the map
     night: dict | None = None  # keywords of skyprobe.Night
+    layers: dict | None = None  # factors on layers of the light
+    polarising_filter: dict | None = None  # keywords of skyprobe.PolarisingFilter
+
+    @property
+    def key(self):
+        """A text that is equal for equal requests only."""
+        return json.dumps(asdict(self), sort_keys=True)
+
+    @property
+    def air_key(self):
+        """A text that is equal for requests with equal air only."""
+        return json.dumps(self.air, sort_keys=True)
 
 
 @dataclass(frozen=True)
-class ProbeResult:
-    """What came out, in plain values. The Sun's altitude is the apparent one, where the map shows the disc."""
+class Lamp:
+    """A disc in the sky as a lamp. The altitude is the apparent one, where the map would show the disc."""
 
-    request: ProbeRequest
-    sun_altitude_deg: float
-    sun_azimuth_deg: float
-    sun_diameter_deg: float
-    sun_irradiance: tuple  # direct normal RGB, in the unit of a Blender Sun lamp's strength times colour
+    altitude_deg: float
+    azimuth_deg: float
+    diameter_deg: float
+    irradiance: tuple  # direct normal RGB, in the unit of a Blender Sun lamp's strength times colour
+
+
+@dataclass(frozen=True)
+class SkyResult:
+    """What came out beside the picture, in plain values."""
+
+    request: SkyRequest
+    sun: Lamp
+    moon: Lamp | None
+    moon_fraction: float  # illuminated fraction of the Moon's disc
+    horizontal_lx: float  # illuminance of the horizontal ground by all that the request asks for
+
+
+def result_content(result):
+    """Return what JSON can keep of a SkyResult: all but its request."""
+    content = asdict(result)
+    del content["request"]
+    return content
+
+
+def result_from(content, request):
+    """Return the SkyResult of which `result_content` made `content`."""
+    sun, moon = ({**lamp, "irradiance": tuple(lamp["irradiance"])} if lamp else None for lamp in (content["sun"], content["moon"]))
+    return SkyResult(**{**content, "request": request, "sun": Lamp(**sun), "moon": Lamp(**moon) if moon else None})
+
+
+# The air of the last probes. A solved atmosphere serves every place and time, so only a change of air costs a solve.
+_KEPT = 4
+_airs = {}
+_air_lock = threading.Lock()
+
+
+def atmosphere(air):
+    """Return the skyprobe.Atmosphere for the keywords `air`, a former one if they are the same."""
+    key = json.dumps(air, sort_keys=True)
+    with _air_lock:
+        found = _airs.pop(key, None) or skyprobe.Atmosphere(**air)
+        _airs[key] = found
+        while len(_airs) > _KEPT:
+            del _airs[next(iter(_airs))]
+        return found
+
+
+def forget_atmospheres():
+    """Free the memory of the last atmospheres."""
+    with _air_lock:
+        _airs.clear()
+
+
+def sky_of(request):
+    """Return the skyprobe.Sky of `request`."""
+    night = skyprobe.Night(**(request.night or {}))
+    return skyprobe.Sky(**request.place, time=request.time, atmosphere=atmosphere(request.air), night=night)
+
+
+def render(sky, request, progress=None):
+    """Render `sky` as `request` says; return the skyprobe.Probe and the SkyResult."""
+    factors = dict(request.layers or {})
+    sun_factor, moon_factor = factors.get("sun", 1.0), factors.get("moon", 1.0)
+    if not request.moon_in_map and "moon" in sky.layer_names:
+        factors["moon"] = 0.0
+    # A layer that this sky has not is no error: the factor waits for the night.
+    factors = {name: factor for name, factor in factors.items() if name in sky.layer_names}
+    held = request.polarising_filter
+    probe = sky.render(
+        width=request.width,
+        scale="blender",
+        color_space="lin_rec709",
+        sun_disc=request.sun_in_map,
+        polarising_filter=None if held is None else skyprobe.PolarisingFilter(**held),
+        layers=factors or None,
+        progress=progress,
+    )
+    sun_rgb = _scaled(sky.sun_irradiance_rgb(scale="blender", color_space=request.lamp_color_space), sun_factor)
+    sun = Lamp(sky.sun.apparent_altitude_deg, sky.sun.azimuth_deg, sky.sun.angular_diameter_deg, sun_rgb)
+    moon, fraction = None, 0.0
+    if sky.moon is not None:
+        moon_rgb = _scaled(sky.moon_irradiance_rgb(scale="blender", color_space=request.lamp_color_space), moon_factor)
+        moon = Lamp(sky.moon.apparent_altitude_deg, sky.moon.azimuth_deg, sky.moon.angular_diameter_deg, moon_rgb)
+        fraction = sky.moon.illuminated_fraction or 0.0
+    horizontal_lx = LUMINOUS_EFFICACY * float(np.dot(probe.irradiance(), LUMINANCE))
+    in_lux = {"scale": "luminance", "color_space": "xyz"}
+    if not request.sun_in_map:
+        horizontal_lx += sun_factor * sky.sun_irradiance_rgb(**in_lux)[1] * _sine(sun)
+    if moon is not None and not request.moon_in_map:
+        horizontal_lx += moon_factor * sky.moon_irradiance_rgb(**in_lux)[1] * _sine(moon)
+    return probe, SkyResult(
+        request=request,
+        sun=sun,
+        moon=moon,
+        moon_fraction=fraction,
+        horizontal_lx=max(horizontal_lx, 0.0),
+    )
+
+
+def preview(request, progress=None):
+    """Return the pixels of `request` as Blender keeps them (flat RGBA, float32, rows from the bottom) and its SkyResult."""
+    probe, result = render(sky_of(request), request, progress)
+    pixels = np.ones((probe.height, probe.width, 4), dtype=np.float32)
+    pixels[:, :, :3] = probe.pixels[::-1]
+    return pixels.ravel(), result
+
+
+def write(request, path, progress=None):
+    """Write the probe of `request` to `path`, whole or not at all; return its SkyResult."""
+    probe, result = render(sky_of(request), request, progress)
+    if progress is not None and not progress("write", 0.0):
+        raise skyprobe.Cancelled("cancelled")
+    probe.save(path)
+    return result
+
+
+@dataclass(frozen=True)
+class Day:
+    """What happens on the local date of a sky, as aware datetimes or None for what does not happen."""
+
+    sun: skyprobe.SunEvents
+    moon_rise: object
+    moon_set: object
+
+
+def day(request):
+    """Return the Day of `request`."""
+    sky = sky_of(request)
+    moon = sky.rise_and_set("Moon")
+    return Day(sky.sun_events(), moon.rise, moon.set)
+
+
+def _sine(lamp):
+    return max(math.sin(math.radians(lamp.altitude_deg)), 0.0)
+
+
+def _scaled(rgb, factor):
+    return tuple(factor * float(value) for value in rgb)
 
 
 class ProbeJob(threading.Thread):
-    """Computes one probe and writes its file. After it ended exactly one of `result` and `error` is set."""
+    """Writes the probe of `request` to `path` on its thread. After it ended exactly one of `result` and `error` is set."""
 
-    def __init__(self, request):
+    def __init__(self, request, path):
         super().__init__(name="skyprobe", daemon=True)
         self.request = request
+        self.path = path
         self.result = None
         self.error = None
         self.stage = "start"
@@ -55,7 +206,7 @@ class ProbeJob(threading.Thread):
 
     def run(self):
         try:
-            self.result = compute(self.request, self._report)
+            self.result = write(self.request, self.path, self._report)
         except BaseException as error:  # handed to the main thread, which reports or raises it
             self.error = error
 
@@ -63,56 +214,3 @@ class ProbeJob(threading.Thread):
         self.stage = stage
         self.fraction = fraction
         return not self._cancel.is_set()
-
-
-# The air of the last probe. A solved atmosphere serves every place and time, so only a change of air costs a solve.
-_last_air = (None, None)
-_air_lock = threading.Lock()
-
-
-def atmosphere(air):
-    """Return the skyprobe.Atmosphere for the keywords `air`, the one used last if they are the same."""
-    global _last_air
-    key = tuple(sorted(air.items()))
-    with _air_lock:
-        if _last_air[0] != key:
-            _last_air = (key, skyprobe.Atmosphere(**air))
-        return _last_air[1]
-
-
-def forget_atmosphere():
-    """Free the memory of the last atmosphere."""
-    global _last_air
-    with _air_lock:
-        _last_air = (None, None)
-
-
-def compute(request, progress):
-    """Compute and write the probe of `request`; `progress(stage, fraction)` returns False to cancel."""
-    night = skyprobe.Night(**(request.night or {}))
-    sky = skyprobe.Sky(**request.place, time=request.time, atmosphere=atmosphere(request.air), night=night)
-    return render(sky, request, progress)
-
-
-def render(sky, request, progress):
-    """Render and write the probe of the skyprobe.Sky `sky`, with the width, file and Sun of `request`."""
-    held = request.polarising_filter
-    probe = sky.render(
-        width=request.width,
-        scale="blender",
-        color_space="lin_rec709",
-        sun_disc=request.sun_in_map,
-        polarising_filter=None if held is None else skyprobe.PolarisingFilter(**held),
-        progress=progress,
-    )
-    irradiance = sky.sun_irradiance_rgb(scale="blender", color_space=request.lamp_color_space)
-    if not progress("write", 0.0):
-        raise skyprobe.Cancelled("cancelled")
-    probe.save(request.path)
-    return ProbeResult(
-        request=request,
-        sun_altitude_deg=sky.sun.apparent_altitude_deg,
-        sun_azimuth_deg=sky.sun.azimuth_deg,
-        sun_diameter_deg=sky.sun.angular_diameter_deg,
-        sun_irradiance=tuple(float(value) for value in irradiance),
-    )

@@ -1,16 +1,127 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A finished probe becomes the light of a scene, and goes again without a trace."""
+"""Light becomes that of a scene, as a preview, a rendered probe or a sequence of them, and goes again without a trace."""
+
+import json
 
 import bpy
 
-from . import sun_lamp, world_nodes
+from . import jobs, lamps, world_nodes
+
+PREVIEW_NAME = "Skyprobe Preview"
 
 
-def apply(scene, result):
-    """Light `scene` by the jobs.ProbeResult `result`: world, lamp, both engines."""
+def show_preview(scene, pixels, result):
+    """Light `scene` by `pixels` (as jobs.preview returns them) and the lamps of `result`."""
     settings = scene.skyprobe
-    image = world_nodes.load_image(result.request.path, result.request.pack)
+    _own(scene)
+    width = result.request.width
+    names = ("preview_b", "preview_a") if _shown_image(scene) == settings.preview_a else ("preview_a", "preview_b")
+    image = world_nodes.with_pixels(getattr(settings, names[0]), PREVIEW_NAME, width, pixels)
+    setattr(settings, names[0], image)
+    _show(scene, image, result, "PREVIEW")
+
+
+def show_probe(scene, result, path, pack):
+    """Light `scene` by the file of a rendered probe, which goes into the .blend if `pack`."""
+    settings = scene.skyprobe
     # Nothing of the scene changes before the file has proved readable.
+    image = world_nodes.load_image(path, pack)
+    _own(scene)
+    old, settings.image = settings.image, image
+    _show(scene, image, result, "PROBE")
+    settings.image_key = result.request.key
+    settings.image_result = json.dumps(jobs.result_content(result))
+    _remove_image(old)
+
+
+def show_again(scene, request):
+    """Show the rendered probe again if it is the one of `request`; return whether it is shown."""
+    settings = scene.skyprobe
+    if settings.image is None or settings.image_key != request.key or not is_lit(scene):
+        return False
+    if settings.shown != "PROBE":
+        _own(scene)
+        _show(scene, settings.image, jobs.result_from(json.loads(settings.image_result), request), "PROBE")
+    return True
+
+
+def show_sequence(scene, image, frames, result):
+    """Light `scene` by an image sequence, one file a frame, from `frames[0]` to `frames[1]`; the lamps stand as in `result`."""
+    settings = scene.skyprobe
+    _own(scene)
+    old, settings.image = settings.image, image
+    settings.image_key = ""
+    _show(scene, image, result, "SEQUENCE")
+    world_nodes.play_sequence(settings.probe_world, frames)
+    if old != image:
+        _remove_image(old)
+
+
+def remove(scene):
+    """Give `scene` the world that it had before, and delete lamps, world and images of the probe."""
+    settings = scene.skyprobe
+    if scene.world is not None and scene.world == settings.probe_world:
+        scene.world = settings.previous_world
+    settings.previous_world = None
+    for name in ("sun_lamp", "moon_lamp"):
+        _remove_lamp(settings, name)
+    _forget_world(settings)
+    for name in ("image", "preview_a", "preview_b"):
+        old = getattr(settings, name)
+        setattr(settings, name, None)
+        _remove_image(old)
+    settings.shown = "NOTHING"
+    settings.image_key = settings.image_result = ""
+    _shown_keys.pop(scene.name, None)
+
+
+def is_lit(scene):
+    """Whether `scene` shows a sky of ours: it has one, and has not been given another world since."""
+    world = scene.skyprobe.probe_world
+    return world is not None and scene.world == world
+
+
+def has_anything(scene):
+    """Whether there is something of ours to remove from `scene`."""
+    settings = scene.skyprobe
+    return any(getattr(settings, name) for name in ("probe_world", "sun_lamp", "moon_lamp", "image", "preview_a", "preview_b"))
+
+
+def shown_key(scene):
+    """Return the jobs.SkyRequest.key of the light that `scene` shows, as far as this session knows."""
+    return _shown_keys.get(scene.name) if is_lit(scene) else None
+
+
+# By the scene's name.
+_shown_keys = {}
+
+
+def forget():
+    """Forget what scenes show, as when another file is opened."""
+    _shown_keys.clear()
+
+
+def pack_preview(scene):
+    """Put the preview that `scene` shows, if it is one, into the .blend."""
+    image = _shown_image(scene)
+    if scene.library is None and image is not None and image in (scene.skyprobe.preview_a, scene.skyprobe.preview_b):
+        world_nodes.pack_pixels(image)
+
+
+def turn_north(scene):
+    """Follow a change of the direction of north, without a new probe."""
+    settings = scene.skyprobe
+    if scene.library is not None:
+        return
+    if settings.probe_world:
+        world_nodes.set_north(settings.probe_world, settings.north)
+    for lamp, azimuth in ((settings.sun_lamp, settings.sun_azimuth_deg), (settings.moon_lamp, settings.moon_azimuth_deg)):
+        if lamp:
+            lamps.turn(lamp, azimuth, settings.north)
+
+
+def _show(scene, image, result, what):
+    settings = scene.skyprobe
     if scene.world is None or scene.world != settings.probe_world:
         _forget_world(settings)
         settings.previous_world = scene.world
@@ -18,46 +129,62 @@ def apply(scene, result):
         scene.world = settings.probe_world
     world = settings.probe_world
     world_nodes.show(world, image, settings.north)
-    _replace_image(settings, image)
-    if result.request.sun_in_map:
-        _remove_lamp(settings)
-        world_nodes.set_sun_in_map(world, result)
+    sun_in_map, moon_in_map = result.request.sun_in_map, result.request.moon_in_map or result.moon is None
+    for name, title, lamp, in_map in (
+        ("sun_lamp", lamps.SUN, result.sun, sun_in_map),
+        ("moon_lamp", lamps.MOON, result.moon, moon_in_map),
+    ):
+        if in_map:
+            _remove_lamp(settings, name)
+        else:
+            thing = lamps.link(scene, getattr(settings, name), title)
+            setattr(settings, name, thing)
+            lamps.shine(thing, lamp, settings.north)
+    if sun_in_map:
+        world_nodes.set_disc_in_map(world, result.sun, result.request.width)
+    elif result.moon is not None and moon_in_map and result.moon.altitude_deg > result.sun.altitude_deg:
+        # By day the Moon in the map is too dim to be sampled by itself.
+        world_nodes.set_moon_in_map(world, result.request.width, result.sun.altitude_deg)
     else:
-        settings.lamp = sun_lamp.place(scene, settings.lamp, result, settings.north)
-        world_nodes.set_sun_as_lamp(world)
-    settings.sun_altitude_deg = result.sun_altitude_deg
-    settings.sun_azimuth_deg = result.sun_azimuth_deg
+        world_nodes.set_discs_as_lamps(world)
+    settings.sun_azimuth_deg = result.sun.azimuth_deg
+    settings.moon_azimuth_deg = result.moon.azimuth_deg if result.moon else 0.0
+    settings.shown = what
+    _shown_keys[scene.name] = result.request.key
 
 
-def remove(scene):
-    """Give `scene` the world that it had before, and delete lamp, world and image of the probe."""
+def _own(scene):
+    """Make sure that no other scene shows what this one is about to change: a copied scene begins with the same world, lamps and images."""
     settings = scene.skyprobe
-    if scene.world == settings.probe_world:
-        scene.world = settings.previous_world
-    settings.previous_world = None
-    _remove_lamp(settings)
-    _forget_world(settings)
-    _replace_image(settings, None)
+    others = [other.skyprobe for other in bpy.data.scenes if other != scene]
+    for name in ("image", "preview_a", "preview_b", "sun_lamp", "moon_lamp"):
+        mine = getattr(settings, name)
+        if mine is not None and any(getattr(other, name) == mine for other in others):
+            if name.endswith("lamp") and mine.name in scene.objects:
+                _unlink(scene, mine)
+            setattr(settings, name, None)
+    world = settings.probe_world
+    if world is not None and any(other.probe_world == world for other in others):
+        settings.probe_world = world.copy()
+        if scene.world == world:
+            scene.world = settings.probe_world
 
 
-def is_lit(scene):
-    """Whether `scene` has a probe to remove."""
-    return scene.skyprobe.probe_world is not None
+def _unlink(scene, lamp):
+    for collection in (scene.collection, *scene.collection.children_recursive):
+        # A collection that both scenes show keeps it.
+        if collection == scene.collection and collection.objects.get(lamp.name) == lamp:
+            collection.objects.unlink(lamp)
 
 
-def turn_north(scene):
-    """Follow a change of the direction of north, without a new probe."""
-    settings = scene.skyprobe
-    if settings.probe_world:
-        world_nodes.set_north(settings.probe_world, settings.north)
-    if settings.lamp:
-        sun_lamp.turn(settings.lamp, settings.sun_azimuth_deg, settings.north)
+def _shown_image(scene):
+    world = scene.skyprobe.probe_world
+    return world_nodes.shown_image(world) if world else None
 
 
-def _replace_image(settings, image):
-    old, settings.image = settings.image, image
-    if old and old.users == 0:
-        bpy.data.images.remove(old)
+def _remove_image(image):
+    if image is not None and image.users == 0:
+        bpy.data.images.remove(image)
 
 
 def _forget_world(settings):
@@ -66,7 +193,8 @@ def _forget_world(settings):
         bpy.data.worlds.remove(old)
 
 
-def _remove_lamp(settings):
-    old, settings.lamp = settings.lamp, None
+def _remove_lamp(settings, name):
+    old = getattr(settings, name)
+    setattr(settings, name, None)
     if old:
-        sun_lamp.remove(old)
+        lamps.remove(old)

@@ -25,6 +25,9 @@ def load_image(path, pack):
     image = bpy.data.images.load(path, check_existing=False)
     image.colorspace_settings.name = "Linear Rec.709"
     image.alpha_mode = "NONE"
+    if 0 in image.size:
+        bpy.data.images.remove(image)
+        raise OSError(f"{path}: Blender cannot read this picture")
     if pack:
         image.pack()
         # The temporary file goes; this is where "Unpack" would put the picture.
@@ -51,7 +54,8 @@ def show(world, image, north):
     mapping = _node(nodes, MAPPING, "ShaderNodeMapping", (x - 700.0, y - 300.0))
     environment = _node(nodes, ENVIRONMENT, "ShaderNodeTexEnvironment", (x - 500.0, y - 300.0))
     background = _node(nodes, BACKGROUND, "ShaderNodeBackground", (x - 200.0, y - 300.0))
-    environment.image = image
+    if environment.image != image:
+        environment.image = image
     environment.projection = "EQUIRECTANGULAR"
     links.new(coordinate.outputs["Generated"], mapping.inputs["Vector"])
     links.new(mapping.outputs["Vector"], environment.inputs["Vector"])
@@ -65,22 +69,69 @@ def set_north(world, north):
     world.node_tree.nodes[MAPPING].inputs["Rotation"].default_value = (0.0, 0.0, north)
 
 
-def set_sun_in_map(world, result):
-    """Tell both engines that the map holds the Sun's disc of the jobs.ProbeResult `result`."""
+def shown_image(world):
+    """Return the image that `world` emits, or None."""
+    environment = world.node_tree.nodes.get(ENVIRONMENT) if world.node_tree else None
+    return environment.image if environment else None
+
+
+def with_pixels(image, name, width, pixels):
+    """Give `image` (or, for None, a new one called `name`) `pixels`, flat RGBA float32 from the bottom, `width` wide; return it."""
+    height = len(pixels) // (4 * width)
+    if image is not None and (image.source != "GENERATED" or not image.is_float):
+        # A packed one became a file of its own.
+        image.source = "GENERATED"
+    if image is None:
+        image = bpy.data.images.new(name, width, height, alpha=False, float_buffer=True)
+        image.colorspace_settings.name = "Linear Rec.709"
+        image.alpha_mode = "NONE"
+    if tuple(image.size) != (width, height):
+        image.scale(width, height)
+    image.pixels.foreach_set(pixels)
+    image.update()
+    return image
+
+
+def pack_pixels(image):
+    """Keep the pixels of an image that was never a file in the .blend."""
+    if image.is_dirty or image.packed_file is None:
+        image.pack()
+
+
+def play_sequence(world, frames):
+    """Let `world` play its image as a sequence of files from frame `frames[0]` to `frames[1]` of the scene, at rest before and after."""
+    user = world.node_tree.nodes[ENVIRONMENT].image_user
+    first, last = frames
+    user.frame_start = first
+    user.frame_duration = last - first + 1
+    # The file's own number is the frame's.
+    user.frame_offset = first - 1
+    user.use_cyclic = False
+    user.use_auto_refresh = True
+
+
+def set_disc_in_map(world, lamp, width):
+    """Tell both engines that the map of `width` pixels holds the disc of the jobs.Lamp `lamp`."""
     # Cycles finds the disc reliably when its importance map is twice as wide as the probe.
-    compat.set_importance_map(world, 2 * result.request.width)
+    compat.set_importance_map(world, 2 * width)
     # EEVEE makes a sun of what is brighter than the threshold. A tenth of the mean over the disc, or over the pixel that
     # holds it, takes all of a dim disc and none of the sky; a bright one EEVEE has clipped to half precision by then.
-    radius = math.radians(result.sun_diameter_deg) / 2.0
-    pixel = (2.0 * math.pi / result.request.width) ** 2 * math.cos(math.radians(result.sun_altitude_deg))
-    world.sun_threshold = min(0.1 * max(0.0, *result.sun_irradiance) / max(math.pi * radius**2, pixel), EEVEE_THRESHOLD)
-    world.sun_angle = 2.0 * radius
+    radius = math.radians(lamp.diameter_deg) / 2.0
+    pixel = (2.0 * math.pi / width) ** 2 * math.cos(math.radians(lamp.altitude_deg))
+    threshold = min(0.1 * max(0.0, *lamp.irradiance) / max(math.pi * radius**2, pixel), EEVEE_THRESHOLD)
+    compat.set_sun_extraction(world, threshold, 2.0 * radius)
 
 
-def set_sun_as_lamp(world):
+def set_moon_in_map(world, width, sun_altitude_deg):
+    """Tell Cycles that the map of `width` pixels holds a Moon that may be the brightest thing in it."""
+    compat.set_importance_map(world, 2 * width if sun_altitude_deg < 0.0 else None)
+    compat.set_sun_extraction(world, 0.0)
+
+
+def set_discs_as_lamps(world):
     """Tell both engines that the map holds no Sun: EEVEE must not make a second one of a bright sky."""
     compat.set_importance_map(world, None)
-    world.sun_threshold = 0.0
+    compat.set_sun_extraction(world, 0.0)
 
 
 def _node(nodes, name, kind, location):

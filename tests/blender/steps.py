@@ -44,7 +44,8 @@ def set_up(parts=None, camera="camera", **settings):
     """Build the test scene with a small quick probe's settings; return the scene."""
     scene = scene_builder.build(load_scene(), parts, camera)
     enable()
-    for name, value in {"quality": "draft", "width": 256, **settings}.items():
+    defaults = {"quality": "draft", "width_choice": "OTHER", "width": 256, "preview_width": 128}
+    for name, value in {**defaults, **settings}.items():
         setattr(scene.skyprobe, name, value)
     return scene
 
@@ -169,7 +170,7 @@ def mistakes(unwritable):
         scene.world = mine = grey_world()
         before = census()
         message = error_of(bpy.ops.skyprobe.render)
-        answers[name] = {"message": message, "untouched": scene.world == mine and census() == before and not scene.skyprobe.lamp}
+        answers[name] = {"message": message, "untouched": scene.world == mine and census() == before and not scene.skyprobe.sun_lamp}
     return answers
 
 
@@ -178,34 +179,38 @@ def choices():
     enable()
     import skyprobe
 
-    properties = part("properties")
+    offered, values = part("choices"), part("values")
     refused = {}
-    for keyword, items in (("preset", properties.PRESETS), ("aerosol", properties.AEROSOLS), ("ground", properties.GROUNDS)):
+    for keyword, items in (("preset", offered.PRESETS), ("aerosol", offered.AEROSOLS), ("ground", offered.GROUNDS)):
         for name, _, _ in items:
-            if name == properties.OF_PRESET:
+            if name == offered.OF_PRESET:
                 continue
             try:
                 skyprobe.Atmosphere(**{"preset": "clear", keyword: name})
             except ValueError as error:
                 refused[f"{keyword} {name}"] = str(error)
     scene = set_up(filter_mode="HELD", filter_angle=np.radians(30.0), filter_azimuth=np.radians(90.0))
-    for switch, name in properties.OPTIONAL_AIR:
+    for switch, name in values.OPTIONAL_AIR:
         setattr(scene.skyprobe, switch, True)
     for make, keywords in (
-        (skyprobe.Atmosphere, properties.air(scene.skyprobe)),
-        (skyprobe.PolarisingFilter, properties.polarising_filter(scene.skyprobe)),
+        (skyprobe.Atmosphere, values.air(scene.skyprobe)),
+        (skyprobe.PolarisingFilter, values.polarising_filter(scene.skyprobe)),
     ):
         try:
             make(**keywords)
         except (TypeError, ValueError) as error:
             refused[make.__name__] = str(error)
     for when in ("auto", "always", "never"):
-        for town, _, _ in properties.TOWNS:
+        for town, _, _ in offered.TOWNS:
             scene.skyprobe.night_when, scene.skyprobe.light_pollution = when, town
             try:
-                skyprobe.Night(**properties.night(scene.skyprobe))
+                skyprobe.Night(**values.night(scene.skyprobe))
             except (TypeError, ValueError) as error:
                 refused[f"night {when} {town}"] = str(error)
+    for name, _, _ in offered.LAYERS:
+        setattr(scene.skyprobe, f"layer_{name}", 0.5)
+    if sorted(values.layers(scene.skyprobe)) != sorted(name for name, _, _ in offered.LAYERS):
+        refused["layers"] = str(values.layers(scene.skyprobe))
     return refused
 
 
@@ -217,14 +222,14 @@ def filtered():
         scene.skyprobe.filter_mode = mode
         bpy.ops.skyprobe.render()
         upper = pixels_of(scene.skyprobe.image)[:128]
-        answer[mode] = {"mean": float(upper.mean()), "keywords": part("properties").polarising_filter(scene.skyprobe)}
+        answer[mode] = {"mean": float(upper.mean()), "keywords": part("values").polarising_filter(scene.skyprobe)}
     return answer
 
 
 def nights():
     """Render a probe under the full Moon with each choice of the panel; tell the mean of its upper half, and the keywords as they come."""
     scene = set_up(year=2005, month=1, day=25, hour=0.5, sun_mode="MAP")
-    answer = {"defaults": part("properties").night(scene.skyprobe)}
+    answer = {"defaults": part("values").night(scene.skyprobe)}
     for name, settings in {
         "full_moon": {},
         "town": {"light_pollution": "8", "solar_flux": 200.0, "star_limit": 6.5},
@@ -234,7 +239,7 @@ def nights():
             setattr(scene.skyprobe, key, value)
         bpy.ops.skyprobe.render()
         answer[name] = float(pixels_of(scene.skyprobe.image)[:128].mean())
-        answer[f"{name}_keywords"] = part("properties").night(scene.skyprobe)
+        answer[f"{name}_keywords"] = part("values").night(scene.skyprobe)
     return answer
 
 
@@ -244,19 +249,23 @@ def time_texts():
     texts = {}
     for mode in ("PLACE", "NAME", "OFFSET"):
         scene.skyprobe.zone_mode = mode
-        texts[mode] = part("properties").time(scene.skyprobe)
+        texts[mode] = part("values").time(scene.skyprobe)
     return texts
 
 
 def threads(folder):
     """Run one job on its thread to the end and cancel another; tell how each ended and which files there are."""
     scene = set_up(storage="FILE", directory=folder)
-    jobs, operators = part("jobs"), part("operators")
-    first = jobs.ProbeJob(operators.request_of(scene))
+    jobs, values = part("jobs"), part("values")
+
+    def job():
+        return jobs.ProbeJob(values.final_request(scene), values.probe_path(scene.skyprobe))
+
+    first = job()
     first.start()
     first.join()
     scene.skyprobe.width = 2048
-    second = jobs.ProbeJob(operators.request_of(scene))
+    second = job()
     second.cancel()
     second.start()
     second.join()
@@ -264,7 +273,7 @@ def threads(folder):
         "first": [type(first.error).__name__, first.result is not None],
         "second": [type(second.error).__name__, second.result is not None],
         "files": [path.name for path in Path(folder).iterdir()],
-        "written": Path(first.request.path).name,
+        "written": Path(first.path).name,
     }
 
 
@@ -278,11 +287,12 @@ def light_with_sun(scene, altitude_deg, azimuth_deg, width, sun_in_map):
         altitude_deg=altitude_deg, azimuth_deg=azimuth_deg, elevation_m=0, atmosphere=jobs.atmosphere(air)
     )
     path = str(Path(bpy.app.tempdir) / "probe.exr")
-    request = jobs.ProbeRequest(
-        air=air, place={}, time="", width=width, sun_in_map=sun_in_map, lamp_color_space="lin_rec709", path=path, pack=True
+    request = jobs.SkyRequest(
+        air=air, place={}, time="", width=width, sun_in_map=sun_in_map, lamp_color_space="lin_rec709"
     )
-    result = jobs.render(sky, request, lambda stage, fraction: True)
-    part("scene_probe").apply(scene, result)
+    probe, result = jobs.render(sky, request)
+    probe.save(path)
+    part("scene_probe").show_probe(scene, result, path, pack=True)
     return sky
 
 

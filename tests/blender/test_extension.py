@@ -108,7 +108,7 @@ def test_a_polarising_filter_changes_the_sky(host):
 def test_the_night_of_the_panel_is_that_of_the_probe(host):
     answer = host.run("steps.nights")
     assert answer["defaults"] == {"when": "auto", "star_limit": 8.5, "solar_flux_sfu": 130.0}
-    assert answer["town_keywords"] == {"when": "auto", "star_limit": 6.5, "solar_flux_sfu": 200.0, "bortle": 8}
+    assert answer["town_keywords"] == {"when": "auto", "star_limit": 6.5, "solar_flux_sfu": 200.0, "bortle": 8, "led_share": 0.5}
     # A mean radiance of pi times 1e-4 W m-2 sr-1 over 683 lm/W is 0.2 lx: moonlight. A city's sky is about as bright.
     assert 2e-5 < answer["full_moon"] < 3e-4, answer
     assert answer["town"] > 1.2 * answer["full_moon"], answer

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Sun as a lamp: it lights exactly as the Sun's disc in the map would, without noise.
+"""Sun and Moon as lamps: each lights exactly as its disc in the map would, without noise.
 
 A Sun lamp of strength S [W/m2] and colour c gives a surface that faces it the irradiance S c, in the unit whose radiance the
-pixels of the probe hold; so S c is the direct normal irradiance of the Sun through the air.
+pixels of the probe hold; so S c is the direct normal irradiance through the air.
 """
 
 import math
 
 import bpy
 
-NAME = "Skyprobe Sun"
+SUN, MOON = "Skyprobe Sun", "Skyprobe Moon"
 
 
 def rotation(altitude_deg, azimuth_deg, north):
@@ -30,29 +30,38 @@ def strength_and_color(irradiance):
     return strength, tuple(value / strength for value in positive)
 
 
-def place(scene, lamp, result, north):
-    """Set `lamp` (an object, or None to make one) to the Sun of the jobs.ProbeResult `result`; return it."""
+def link(scene, lamp, name):
+    """Return `lamp` (an object, or None to make one called `name`), in `scene`."""
     if lamp is None:
-        lamp = bpy.data.objects.new(NAME, bpy.data.lights.new(NAME, "SUN"))
-    if lamp.name not in scene.objects:
+        lamp = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
+    if scene.objects.get(lamp.name) != lamp:
         scene.collection.objects.link(lamp)
-    light = lamp.data
-    light.energy, light.color = strength_and_color(result.sun_irradiance)
-    light.angle = math.radians(result.sun_diameter_deg)
-    lamp.rotation_mode = "XYZ"
-    # The disc in the map is drawn where refraction lifts it to; the lamp must agree.
-    lamp.rotation_euler = rotation(result.sun_altitude_deg, result.sun_azimuth_deg, north)
     return lamp
 
 
-def turn(lamp, result_azimuth_deg, north):
+def shine(lamp, light_of, north):
+    """Set the object `lamp` to the jobs.Lamp `light_of`."""
+    light = lamp.data
+    light.energy, light.color = strength_and_color(light_of.irradiance)
+    light.angle = math.radians(light_of.diameter_deg)
+    lamp.rotation_mode = "XYZ"
+    # The disc in the map is drawn where refraction lifts it to; the lamp must agree.
+    lamp.rotation_euler = rotation(light_of.altitude_deg, light_of.azimuth_deg, north)
+
+
+def turn(lamp, azimuth_deg, north):
     """Turn `lamp` after a change of `north` alone."""
-    lamp.rotation_euler.z = -(math.radians(result_azimuth_deg) + north)
+    lamp.rotation_euler.z = -(math.radians(azimuth_deg) + north)
+
+
+def nearest_turn(angle, before):
+    """Return `angle` plus whole turns, as close to `before` as can be [radians]."""
+    return angle + 2.0 * math.pi * round((before - angle) / (2.0 * math.pi))
 
 
 def remove(lamp):
     """Delete the lamp and, if nothing else uses it, its light."""
     light = lamp.data
     bpy.data.objects.remove(lamp)
-    if light.users == 0:
+    if light is not None and light.users == 0:
         bpy.data.lights.remove(light)

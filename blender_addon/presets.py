@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Presets: configurations in files, those that come with the add-on and the user's own."""
+
+import json
+import os
+from pathlib import Path
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from . import compat, configuration, live, operators
+
+OURS = Path(__file__).resolve().parent / "presets"
+# Characters that some file system does not take.
+FORBIDDEN = '<>:"/\\|?*'
+
+
+def own_folder():
+    """Return the folder of the user's presets, made if it is missing."""
+    return Path(compat.user_folder("presets"))
+
+
+def all_of(folder):
+    """Return (title, path) of the presets in `folder`, by title."""
+    try:
+        return sorted((path.stem, str(path)) for path in Path(folder).glob("*.json"))
+    except OSError:
+        return []
+
+
+def read(path):
+    """Return the configuration in the file `path`; ValueError or OSError that names it."""
+    try:
+        return json.loads(Path(path).read_text(encoding="utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ValueError(f"{path}: must be JSON text ({error})") from None
+
+
+def write(path, content):
+    """Write the configuration `content` to `path`, whole or not at all."""
+    path = Path(path)
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def apply(scene, path):
+    """Give `scene` the configuration in the file `path`; ValueError or OSError, before any change, if that cannot be."""
+    content = read(path)
+    with live.held(scene):
+        try:
+            configuration.to_settings(content, scene.skyprobe)
+        except ValueError as error:
+            raise ValueError(f"{Path(path).name}: {error}") from None
+
+
+class _Applying:
+    def execute(self, context):
+        try:
+            apply(context.scene, self.filepath)
+        except (ValueError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class SKYPROBE_OT_apply_preset(_Applying, bpy.types.Operator):
+    """Set the sky to this preset. What the preset does not hold stays as it is"""
+
+    bl_idname = "skyprobe.apply_preset"
+    bl_label = "Apply Sky Preset"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+
+    filepath: StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        return operators.editable(cls, context)
+
+
+class SKYPROBE_OT_save_preset(bpy.types.Operator):
+    """Save the settings of the sky as a preset, for all scenes"""
+
+    bl_idname = "skyprobe.save_preset"
+    bl_label = "Save Sky Preset"
+
+    title: StringProperty(name="Name", description="Name of the preset, and of its file")
+    sections: EnumProperty(
+        name="Keep",
+        description="What the preset holds; the rest stays as it is when it is applied",
+        options={"ENUM_FLAG"},
+        items=(
+            ("place", "Place", "Latitude, longitude, elevation"),
+            ("time", "Time", "Date, time, zone"),
+            ("air", "Air", "State of the air, ground, quality"),
+            ("night", "Night", "Lights of the night, layers"),
+            ("filter", "Filter", "The polarising filter"),
+            ("probe", "Probe", "Resolution and where the Sun is"),
+        ),
+        default={"place", "time", "air", "night", "filter"},
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene is not None
+
+    def invoke(self, context, event):
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context):
+        title = self.title.strip()
+        try:
+            if not title or title.startswith(".") or any(letter in FORBIDDEN or ord(letter) < 32 for letter in title):
+                raise ValueError(f"name = {self.title!r}: must be a file's name, without {FORBIDDEN}")
+            if not self.sections:
+                raise ValueError("keep = nothing: must be at least one part of the settings")
+            write(own_folder() / f"{title}.json", configuration.from_settings(context.scene.skyprobe, self.sections))
+        except (ValueError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Skyprobe: saved {title}")
+        return {"FINISHED"}
+
+
+class SKYPROBE_OT_delete_preset(bpy.types.Operator):
+    """Delete this preset of yours"""
+
+    bl_idname = "skyprobe.delete_preset"
+    bl_label = "Delete Sky Preset"
+
+    title: StringProperty(options={"SKIP_SAVE"})
+
+    def invoke(self, context, event):
+        return context.window_manager.invoke_confirm(self, event)
+
+    def execute(self, context):
+        paths = dict(all_of(own_folder()))
+        try:
+            if self.title not in paths:
+                raise ValueError(f"name = {self.title!r}: must be one of {', '.join(paths) or 'your presets, and there are none'}")
+            os.remove(paths[self.title])
+        except (ValueError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class SKYPROBE_OT_import_configuration(_Applying, bpy.types.Operator, ImportHelper):
+    """Read the settings from a configuration of the command line tool, or a preset"""
+
+    bl_idname = "skyprobe.import_configuration"
+    bl_label = "Import Configuration"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return operators.editable(cls, context)
+
+
+class SKYPROBE_OT_export_configuration(bpy.types.Operator, ExportHelper):
+    """Write the settings as a configuration: skyprobe render --config FILE makes the same probe without Blender"""
+
+    bl_idname = "skyprobe.export_configuration"
+    bl_label = "Export Configuration"
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene is not None
+
+    def execute(self, context):
+        try:
+            write(self.filepath, configuration.from_settings(context.scene.skyprobe))
+        except (ValueError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class SKYPROBE_MT_presets(bpy.types.Menu):
+    """Skies to begin with, and your own"""
+
+    bl_label = "Sky Presets"
+    bl_idname = "SKYPROBE_MT_presets"
+
+    def draw(self, context):
+        layout = self.layout
+        own = all_of(own_folder())
+        for title, path in all_of(OURS):
+            layout.operator(SKYPROBE_OT_apply_preset.bl_idname, text=title).filepath = path
+        if own:
+            layout.separator()
+        for title, path in own:
+            layout.operator(SKYPROBE_OT_apply_preset.bl_idname, text=title).filepath = path
+        layout.separator()
+        layout.operator(SKYPROBE_OT_save_preset.bl_idname, text="Save Preset...", icon="ADD")
+        if own:
+            layout.menu(SKYPROBE_MT_delete_preset.bl_idname, icon="REMOVE")
+        layout.operator(SKYPROBE_OT_import_configuration.bl_idname, text="Import...", icon="IMPORT")
+        layout.operator(SKYPROBE_OT_export_configuration.bl_idname, text="Export...", icon="EXPORT")
+        layout.separator()
+        layout.operator(operators.SKYPROBE_OT_reset.bl_idname, icon="LOOP_BACK")
+
+
+class SKYPROBE_MT_delete_preset(bpy.types.Menu):
+    """Presets of yours"""
+
+    bl_label = "Delete Preset"
+    bl_idname = "SKYPROBE_MT_delete_preset"
+
+    def draw(self, context):
+        for title, _ in all_of(own_folder()):
+            self.layout.operator(SKYPROBE_OT_delete_preset.bl_idname, text=title).title = title
+
+
+CLASSES = (
+    SKYPROBE_OT_apply_preset,
+    SKYPROBE_OT_save_preset,
+    SKYPROBE_OT_delete_preset,
+    SKYPROBE_OT_import_configuration,
+    SKYPROBE_OT_export_configuration,
+    SKYPROBE_MT_presets,
+    SKYPROBE_MT_delete_preset,
+)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From what the panel holds to the plain values that the skyprobe library takes, and the times that a panel can mean."""
+
+import datetime
+import math
+import os
+
+import bpy
+from skyprobe import places
+
+from . import choices, compat, jobs
+
+# Values of the air that a switch takes from the preset.
+OPTIONAL_AIR = (
+    ("use_humidity", "relative_humidity"),
+    ("use_ozone", "ozone_du"),
+    ("use_stratosphere", "stratospheric_aod550"),
+)
+# The preview's air is solved as coarsely as the library offers.
+PREVIEW_QUALITY = "draft"
+
+
+def air(settings, quality=None):
+    """Return the keywords of skyprobe.Atmosphere; what is left to the preset is absent."""
+    keywords = {"preset": settings.preset, "quality": quality or settings.quality}
+    for name in ("aerosol", "ground"):
+        if getattr(settings, name) != choices.OF_PRESET:
+            keywords[name] = getattr(settings, name)
+    if settings.haze != choices.OF_PRESET:
+        keywords[settings.haze] = as_typed(getattr(settings, settings.haze))
+    for switch, name in OPTIONAL_AIR:
+        if getattr(settings, switch):
+            keywords[name] = as_typed(getattr(settings, name))
+    return keywords
+
+
+def polarising_filter(settings):
+    """Return the keywords of skyprobe.PolarisingFilter, or None without a filter."""
+    if settings.filter_mode == "NONE":
+        return None
+    keywords = {"strength": as_typed(settings.filter_strength), "angle_deg": degrees(settings.filter_angle)}
+    if settings.filter_mode == "HELD":
+        keywords["held_towards_deg"] = (degrees(settings.filter_altitude), degrees(settings.filter_azimuth))
+    return keywords
+
+
+def night(settings):
+    """Return the keywords of skyprobe.Night."""
+    keywords = {
+        "when": settings.night_when,
+        "star_limit": as_typed(settings.star_limit),
+        "solar_flux_sfu": as_typed(settings.solar_flux),
+    }
+    if settings.light_pollution != choices.NO_TOWNS:
+        keywords["bortle"] = int(settings.light_pollution)
+        keywords["led_share"] = as_typed(settings.led_share)
+    return keywords
+
+
+def layers(settings):
+    """Return the factors on layers that are not 1."""
+    factors = ((name, as_typed(getattr(settings, f"layer_{name}"))) for name, _, _ in choices.LAYERS)
+    return {name: factor for name, factor in factors if factor != 1.0}
+
+
+def place(settings):
+    """Return latitude, longitude [degrees] and elevation_m as keywords of skyprobe.Sky."""
+    return {
+        "latitude": degrees(settings.latitude),
+        "longitude": degrees(settings.longitude),
+        "elevation_m": as_typed(settings.elevation_m),
+    }
+
+
+def width(settings):
+    """Return the width of the probe to render [pixels]."""
+    return settings.width if settings.width_choice == "OTHER" else int(settings.width_choice)
+
+
+def as_typed(value):
+    """Return the number that the user typed: Blender keeps single precision, in which 0.1 is another and the poles lie beyond 90."""
+    return round(value, 5)
+
+
+def degrees(angle):
+    """Return an angle [radians] as the degrees that the user typed."""
+    return as_typed(math.degrees(angle))
+
+
+def clock(settings):
+    """Return (hour, minute, second) of the time of day."""
+    seconds = min(round(settings.hour * 3600.0), 86399)
+    return seconds // 3600, seconds // 60 % 60, seconds % 60
+
+
+def date(settings):
+    """Return the date; ValueError for a day that the month does not have."""
+    try:
+        return datetime.date(settings.year, settings.month, settings.day)
+    except ValueError:
+        text = f"{settings.year:04d}-{settings.month:02d}-{settings.day:02d}"
+        raise ValueError(f"date = {text}: must be a day of the calendar; that month is shorter") from None
+
+
+def time(settings):
+    """Return the time as ISO 8601 with its zone in brackets, its offset, or neither where the place decides.
+
+    With a time offset it is given by its offset from universal time, as hours that pass do not know of daylight saving.
+    """
+    date(settings)
+    hour, minute, second = clock(settings)
+    text = f"{settings.year:04d}-{settings.month:02d}-{settings.day:02d}T{hour:02d}:{minute:02d}:{second:02d}"
+    if settings.zone_mode == "NAME":
+        text = f"{text}[{settings.zone_name.strip()}]"
+    elif settings.zone_mode == "OFFSET":
+        minutes = round(settings.utc_offset * 60.0)
+        text = f"{text}{'-' if minutes < 0 else '+'}{abs(minutes) // 60:02d}:{abs(minutes) % 60:02d}"
+    if settings.time_offset_h == 0.0:
+        return text
+    start = places.civil_time(text, **_where(settings)).time
+    shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
+    return shifted.strftime("%Y-%m-%dT%H:%M:%S+00:00")
+
+
+def civil_time(settings):
+    """Return the skyprobe.places.CivilTime of the settings: the time with its offset, zone, and whether it is summer time."""
+    return places.civil_time(time(settings), **_where(settings))
+
+
+def now(settings):
+    """Return this moment as a datetime with the offset of the settings' zone."""
+    moment = datetime.datetime.now(datetime.timezone.utc)
+    if settings.zone_mode == "OFFSET":
+        return moment.astimezone(datetime.timezone(datetime.timedelta(hours=settings.utc_offset)))
+    zone = settings.zone_name.strip() if settings.zone_mode == "NAME" else places.time_zone(**_where(settings))
+    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **_where(settings)).time.tzinfo)
+
+
+def set_clock(settings, moment):
+    """Set date and time of day of `settings` to what the datetime `moment` says, and no time offset."""
+    settings.year, settings.month, settings.day = moment.year, moment.month, moment.day
+    settings.hour = min(moment.hour + moment.minute / 60.0 + moment.second / 3600.0, 23.9997)
+    settings.time_offset_h = 0.0
+
+
+def span(settings, name):
+    """Return when the span of a time-lapse begins (a datetime, None for now) and how long it is [hours]; ValueError if the Sun does not do that."""
+    if name == "YEAR":
+        return None, 365.0 * 24.0
+    sun = jobs.day(sky_request(settings, PREVIEW_QUALITY, 64)).sun
+    if name == "WHOLE":
+        return sun.solar_noon.replace(hour=0, minute=0, second=0, microsecond=0), 24.0
+    hour = datetime.timedelta(hours=1.0)
+    names = {
+        "DAY": (sun.civil_dawn, sun.civil_dusk),
+        "SUNRISE": (sun.sunrise, sun.sunrise),
+        "SUNSET": (sun.sunset, sun.sunset),
+        "NIGHT": (sun.sunset, sun.sunrise),
+    }
+    begin, end = names[name]
+    if begin is None or end is None:
+        raise ValueError(f"span = {name}: must be another; on that date the Sun does not rise or set there")
+    if name in {"SUNRISE", "SUNSET"}:
+        begin, end = begin - hour, end + hour
+    if name == "NIGHT":
+        end += 24.0 * hour
+    return begin, (end - begin).total_seconds() / 3600.0
+
+
+def _where(settings):
+    return {"latitude": degrees(settings.latitude), "longitude": degrees(settings.longitude)}
+
+
+def preview_request(scene):
+    """Return the jobs.SkyRequest of the live preview of `scene`; ValueError for settings that make no sense."""
+    settings = scene.skyprobe
+    return sky_request(settings, PREVIEW_QUALITY, settings.preview_width)
+
+
+def final_request(scene):
+    """Return the jobs.SkyRequest of the probe that `scene` asks for; ValueError for settings that make no sense."""
+    settings = scene.skyprobe
+    return sky_request(settings, settings.quality, width(settings))
+
+
+def sky_request(settings, quality, pixels):
+    """Return the jobs.SkyRequest of `settings` at a quality of the air and a width [pixels]."""
+    return jobs.SkyRequest(
+        air=air(settings, quality),
+        place=place(settings),
+        time=time(settings),
+        night=night(settings),
+        layers=layers(settings),
+        polarising_filter=polarising_filter(settings),
+        width=pixels,
+        sun_in_map=settings.sun_mode == "MAP",
+        moon_in_map=settings.moon_mode == "MAP",
+        lamp_color_space=compat.working_color_space(),
+    )
+
+
+def folder(settings, directory=None):
+    """Return the absolute folder `directory` (by default that of `settings`) for files that are kept; ValueError for one that cannot be meant."""
+    directory = settings.directory if directory is None else directory
+    if directory.startswith("//") and not bpy.data.filepath:
+        raise ValueError(f"folder = {directory}: must be absolute until the .blend is saved")
+    if not directory.strip():
+        raise ValueError("folder = (empty): must be the name of a folder; // is where the .blend is")
+    return os.path.normpath(bpy.path.abspath(directory))
+
+
+def probe_path(settings):
+    """Return the absolute path of the probe's file: in the folder, or in Blender's temporary one if it is to be packed."""
+    where, when = place(settings), time(settings)
+    stamp = when[:16].replace("-", "").replace(":", "")
+    name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{width(settings)}.exr"
+    return os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name)

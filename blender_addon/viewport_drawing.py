@@ -1,0 +1,3 @@
+def register(): pass
+def unregister(): pass
+def tag_redraw(): pass
