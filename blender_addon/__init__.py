@@ -9,6 +9,17 @@ Conventions: +X east, +Y north (until the user turns north), +Z up.
 
 from . import operators, panels, properties
 
+# Read where the add-on runs from its folder, without blender_manifest.toml, which replaces it for an installed extension.
+bl_info = {
+    "name": "Skyprobe",
+    "description": "Physically based light of the sky for a place and a time",
+    "author": "The skyprobe contributors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "World properties; sidebar of the 3D view",
+    "category": "Lighting",
+}
+
 MODULES = (properties, operators, panels)
 
 

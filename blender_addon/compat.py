@@ -40,3 +40,33 @@ def set_importance_map(world, width):
     limit = cycles.bl_rna.properties["sample_map_resolution"].hard_max
     cycles.sampling_method = "MANUAL"
     cycles.sample_map_resolution = min(width, limit)
+
+
+def set_sun_extraction(world, threshold, angle=None):
+    """Let EEVEE make a sun of angular diameter `angle` [radians] out of what is brighter than `threshold`; 0 for no sun.
+
+    Before 4.2 EEVEE takes no sun out of a world.
+    """
+    if bpy.app.version < (4, 2, 0):
+        return
+    world.sun_threshold = threshold
+    if angle is not None:
+        world.sun_angle = angle
+
+
+def layout_panel(layout, name, default_closed):
+    """Return the layouts (header, body) of a panel inside `layout`, body None while it is closed.
+
+    Before 4.1 there is no such panel: a title over the content, always open.
+    """
+    if bpy.app.version < (4, 1, 0):
+        return layout.row(), layout.column()
+    return layout.panel(name, default_closed=default_closed)
+
+
+def layout_progress(layout, factor, text):
+    """Show that `factor` (0 to 1) of a work is done. Before 4.0 there is no bar, only the text."""
+    if bpy.app.version < (4, 0, 0):
+        layout.label(text=text)
+    else:
+        layout.progress(factor=factor, text=text)

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import operators, properties, scene_probe
+from . import compat, operators, properties, scene_probe
 
 
 def draw(layout, scene):
@@ -13,7 +13,7 @@ def draw(layout, scene):
     layout.use_property_decorate = False
     _draw_run(layout, scene, settings)
     for name, title, section, closed in SECTIONS:
-        header, body = layout.panel(f"skyprobe_{name}", default_closed=closed)
+        header, body = compat.layout_panel(layout, f"skyprobe_{name}", closed)
         header.label(text=title)
         if body:
             section(body, settings)
@@ -22,7 +22,7 @@ def draw(layout, scene):
 def _draw_run(layout, scene, settings):
     job = operators.running_job
     if job is not None:
-        layout.progress(factor=job.fraction, text=f"{job.stage} {job.fraction:.0%} (Esc cancels)")
+        compat.layout_progress(layout, job.fraction, f"{job.stage} {job.fraction:.0%} (Esc cancels)")
         return
     row = layout.row(align=True)
     row.operator(operators.SKYPROBE_OT_render.bl_idname, icon="LIGHT_SUN")

@@ -73,14 +73,14 @@ def set_sun_in_map(world, result):
     # holds it, takes all of a dim disc and none of the sky; a bright one EEVEE has clipped to half precision by then.
     radius = math.radians(result.sun_diameter_deg) / 2.0
     pixel = (2.0 * math.pi / result.request.width) ** 2 * math.cos(math.radians(result.sun_altitude_deg))
-    world.sun_threshold = min(0.1 * max(0.0, *result.sun_irradiance) / max(math.pi * radius**2, pixel), EEVEE_THRESHOLD)
-    world.sun_angle = 2.0 * radius
+    threshold = min(0.1 * max(0.0, *result.sun_irradiance) / max(math.pi * radius**2, pixel), EEVEE_THRESHOLD)
+    compat.set_sun_extraction(world, threshold, 2.0 * radius)
 
 
 def set_sun_as_lamp(world):
     """Tell both engines that the map holds no Sun: EEVEE must not make a second one of a bright sky."""
     compat.set_importance_map(world, None)
-    world.sun_threshold = 0.0
+    compat.set_sun_extraction(world, 0.0)
 
 
 def _node(nodes, name, kind, location):

@@ -1,0 +1,154 @@
+"""Runs step functions of the scripts beside it inside a real Blender with a window, on a virtual screen.
+
+The add-on is loaded from its folder, without a zip: a scripts folder made for the run holds a link to it, and the skyprobe wheel
+unpacked. Blenders are found in this order: SKYPROBE_BLENDER (a path), what tests/setup_window.sh made, `blender` of the PATH.
+"""
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+PACKAGE = "skyprobe_addon"
+SCREEN = (1600, 1000)  # [pixels]
+
+# What Blender prints where a script went wrong in a place that cannot raise: a panel, a handler, a timer.
+COMPLAINTS = ("Traceback (most recent call last)", "rna_uiItem", "Error: Python", "Freeing memory after the leak detector")
+
+
+@dataclass(frozen=True)
+class Blender:
+    """A Blender that can open a window."""
+
+    command: tuple  # with which it starts
+    root: Path = Path("/")  # what it takes for the root of the file system
+
+    def inside(self, path):
+        """Return the absolute `path` as this Blender sees it."""
+        return "/" + str(Path(path).relative_to(self.root))
+
+
+def find_blender():
+    """Return the Blender to use, or None."""
+    named = os.environ.get("SKYPROBE_BLENDER") or shutil.which("blender")
+    return Blender((named,)) if named else None
+
+
+@contextlib.contextmanager
+def virtual_screen():
+    """Yield the name of an X display of SCREEN pixels that nobody else uses."""
+    reading, writing = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-nolisten", "tcp", "-noreset"],
+        pass_fds=(writing,),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    os.close(writing)
+    try:
+        with os.fdopen(reading) as answer:
+            number = answer.readline().strip()
+        if not number:
+            raise RuntimeError(f"Xvfb ended with {server.wait(10)}")
+        yield f":{number}"
+    finally:
+        _kill(server)
+
+
+def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arguments):
+    """Let `function` ("module.name" of a script in this folder) run in a window of `blender`; return its answer.
+
+    `function` is a generator function, called with the JSON `arguments`; window_child.py tells what it may yield. `wheel` is the
+    path of the skyprobe wheel. Whatever Blender complains of on the way is an error unless `complaints_allowed`, with which the
+    answer is the pair (answer, output).
+    """
+    with tempfile.TemporaryDirectory(dir=blender.root / "tmp") as folder, virtual_screen() as display:
+        folder = Path(folder)
+        child = _lay_out(folder, blender, wheel)
+        question, answer, log = folder / "question.json", folder / "answer.json", folder / "output.txt"
+        question.write_text(json.dumps({"function": function, "arguments": arguments}), encoding="utf-8")
+        environment = {
+            **os.environ,
+            "DISPLAY": display,
+            "LIBGL_ALWAYS_SOFTWARE": "1",
+            "BLENDER_USER_SCRIPTS": blender.inside(folder / "scripts"),
+            "BLENDER_USER_CONFIG": blender.inside(folder / "config"),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "PYTHONUNBUFFERED": "1",
+        }
+        options = ["--factory-startup", "-noaudio", "--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN), "--python-exit-code", "3"]
+        paths = [blender.inside(path) for path in (child, folder / "site", question, answer)]
+        with log.open("w", encoding="utf-8") as output:
+            process = subprocess.Popen(
+                [*blender.command, *options, "--python", paths[0], "--", *paths[1:]],
+                env=environment,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+            try:
+                process.wait(timeout_s)
+            except subprocess.TimeoutExpired:
+                raise RuntimeError(f"{function} did not end within {timeout_s} s:\n{log.read_text(errors='replace')}") from None
+            finally:
+                _kill(process)
+        printed = log.read_text(encoding="utf-8", errors="replace")
+        if not answer.exists():
+            raise RuntimeError(f"Blender ended with {process.returncode}:\n{printed}")
+        content = json.loads(answer.read_text(encoding="utf-8"))
+    if "error" in content:
+        raise RuntimeError(f"{content['error']}\n{printed}")
+    if complaints_allowed:
+        return content["answer"], printed
+    if any(complaint in printed for complaint in COMPLAINTS):
+        raise RuntimeError(f"Blender complained during {function}:\n{printed}")
+    return content["answer"]
+
+
+def _lay_out(folder, blender, wheel):
+    """Make the scripts folder of a run in `folder`; return the path of the script that Blender starts."""
+    (folder / "config").mkdir()
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(folder / "site")
+    _put(ROOT / "blender_addon", folder / "scripts" / "addons" / PACKAGE, blender)
+    _put(HERE.parent, folder / "tests", blender)
+    return folder / "tests" / HERE.name / "window_child.py"
+
+
+def _put(source, target, blender):
+    """Make `source` appear at `target`: by a link, or a copy where a link would lead out of what `blender` sees."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if blender.root == Path("/"):
+        target.symlink_to(source)
+    else:
+        shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "reference"))
+
+
+def _kill(process):
+    """End `process` and all that it started."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait(10)
+
+
+def main():
+    """Run one step function by hand: python tests/blender/window.py WHEEL FUNCTION [NAME=JSON]..."""
+    wheel, function, *pairs = sys.argv[1:]
+    arguments = {name: json.loads(value) for name, value in (pair.split("=", 1) for pair in pairs)}
+    answer, printed = run(find_blender(), function, wheel, complaints_allowed=True, **arguments)
+    print(printed)
+    print(json.dumps(answer, indent=1))
+
+
+if __name__ == "__main__":
+    main()
