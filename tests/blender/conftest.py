@@ -73,20 +73,20 @@ class Window:
         return window.run(self.blender, function, self.wheel, **arguments)
 
 
-@pytest.fixture(scope="session")
-def windowed(wheel):
-    """The Blender that opens a window."""
-    blender = window.find_blender()
-    if blender is None:
+@pytest.fixture(scope="session", params=window.find_blenders() or [None], ids=lambda blender: blender.name if blender else "none")
+def windowed(request, wheel):
+    """Each Blender in turn that opens a window."""
+    if request.param is None:
         if os.environ.get("SKYPROBE_SKIP_HOSTS") == "1":
             pytest.skip("no blender, and SKYPROBE_SKIP_HOSTS=1")
         pytest.fail("no blender in the PATH: tests/setup_hosts.sh installs it, or set SKYPROBE_SKIP_HOSTS=1")
-    return Window(blender, wheel)
+    return Window(request.param, wheel)
 
 
 @pytest.fixture
-def pictures(tmp_path):
-    """The folder for screenshots: SKYPROBE_PICTURES, to look at them, or one that goes."""
-    folder = Path(os.environ.get("SKYPROBE_PICTURES") or tmp_path)
+def pictures(windowed, tmp_path):
+    """The folder for screenshots: one inside SKYPROBE_PICTURES, to look at them, or one that goes."""
+    kept = os.environ.get("SKYPROBE_PICTURES")
+    folder = Path(kept) / windowed.blender.name if kept else tmp_path
     folder.mkdir(parents=True, exist_ok=True)
     return folder

@@ -1,7 +1,7 @@
 """Runs step functions of the scripts beside it inside a real Blender with a window, on a virtual screen.
 
 The add-on is loaded from its folder, without a zip: a scripts folder made for the run holds a link to it, and the skyprobe wheel
-unpacked. Blenders are found in this order: SKYPROBE_BLENDER (a path), what tests/setup_window.sh made, `blender` of the PATH.
+unpacked. The Blenders are what tests/setup_window.sh made and the `blender` of the PATH, or the one of SKYPROBE_BLENDER (a path) alone.
 """
 
 import contextlib
@@ -29,18 +29,21 @@ COMPLAINTS = ("Traceback (most recent call last)", "rna_uiItem", "Error: Python"
 class Blender:
     """A Blender that can open a window."""
 
+    name: str
     command: tuple  # with which it starts
-    root: Path = Path("/")  # what it takes for the root of the file system
-
-    def inside(self, path):
-        """Return the absolute `path` as this Blender sees it."""
-        return "/" + str(Path(path).relative_to(self.root))
 
 
-def find_blender():
-    """Return the Blender to use, or None."""
-    named = os.environ.get("SKYPROBE_BLENDER") or shutil.which("blender")
-    return Blender((named,)) if named else None
+def find_blenders():
+    """Return the Blenders that can open a window here, the newest first."""
+    found = []
+    if named := os.environ.get("SKYPROBE_BLENDER"):
+        return [Blender("named", (named,))]
+    if (ROOT / ".window" / "made").exists() and os.geteuid() == 0:
+        enter = ("unshare", "--mount", HERE / "in_window_root.sh", ROOT / ".window", ROOT)
+        found.append(Blender("trixie", (*enter, "blender")))
+    if installed := shutil.which("blender"):
+        found.append(Blender("installed", (installed,)))
+    return found
 
 
 @contextlib.contextmanager
@@ -72,25 +75,25 @@ def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arg
     path of the skyprobe wheel. Whatever Blender complains of on the way is an error unless `complaints_allowed`, with which the
     answer is the pair (answer, output).
     """
-    with tempfile.TemporaryDirectory(dir=blender.root / "tmp") as folder, virtual_screen() as display:
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder, virtual_screen() as display:
         folder = Path(folder)
-        child = _lay_out(folder, blender, wheel)
+        _lay_out(folder, wheel)
         question, answer, log = folder / "question.json", folder / "answer.json", folder / "output.txt"
         question.write_text(json.dumps({"function": function, "arguments": arguments}), encoding="utf-8")
         environment = {
             **os.environ,
             "DISPLAY": display,
             "LIBGL_ALWAYS_SOFTWARE": "1",
-            "BLENDER_USER_SCRIPTS": blender.inside(folder / "scripts"),
-            "BLENDER_USER_CONFIG": blender.inside(folder / "config"),
+            "BLENDER_USER_SCRIPTS": folder / "scripts",
+            "BLENDER_USER_CONFIG": folder / "config",
             "PYTHONDONTWRITEBYTECODE": "1",
             "PYTHONUNBUFFERED": "1",
         }
         options = ["--factory-startup", "-noaudio", "--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN), "--python-exit-code", "3"]
-        paths = [blender.inside(path) for path in (child, folder / "site", question, answer)]
+        paths = [HERE / "window_child.py", "--", folder / "site", question, answer]
         with log.open("w", encoding="utf-8") as output:
             process = subprocess.Popen(
-                [*blender.command, *options, "--python", paths[0], "--", *paths[1:]],
+                [*blender.command, *options, "--python", *paths],
                 env=environment,
                 stdout=output,
                 stderr=subprocess.STDOUT,
@@ -115,23 +118,14 @@ def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arg
     return content["answer"]
 
 
-def _lay_out(folder, blender, wheel):
-    """Make the scripts folder of a run in `folder`; return the path of the script that Blender starts."""
+def _lay_out(folder, wheel):
+    """Fill `folder` with what a run needs: the add-on where Blender looks for it, and the library."""
     (folder / "config").mkdir()
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(folder / "site")
-    _put(ROOT / "blender_addon", folder / "scripts" / "addons" / PACKAGE, blender)
-    _put(HERE.parent, folder / "tests", blender)
-    return folder / "tests" / HERE.name / "window_child.py"
-
-
-def _put(source, target, blender):
-    """Make `source` appear at `target`: by a link, or a copy where a link would lead out of what `blender` sees."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    if blender.root == Path("/"):
-        target.symlink_to(source)
-    else:
-        shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "reference"))
+    addons = folder / "scripts" / "addons"
+    addons.mkdir(parents=True)
+    (addons / PACKAGE).symlink_to(ROOT / "blender_addon")
 
 
 def _kill(process):
@@ -145,7 +139,7 @@ def main():
     """Run one step function by hand: python tests/blender/window.py WHEEL FUNCTION [NAME=JSON]..."""
     wheel, function, *pairs = sys.argv[1:]
     arguments = {name: json.loads(value) for name, value in (pair.split("=", 1) for pair in pairs)}
-    answer, printed = run(find_blender(), function, wheel, complaints_allowed=True, **arguments)
+    answer, printed = run(find_blenders()[0], function, wheel, complaints_allowed=True, **arguments)
     print(printed)
     print(json.dumps(answer, indent=1))
 
