@@ -47,11 +47,12 @@ def find_blenders():
 
 
 @contextlib.contextmanager
-def virtual_screen():
-    """Yield the name of an X display of SCREEN pixels that nobody else uses."""
+def virtual_screen(folder):
+    """Yield the name of an X display of SCREEN pixels that nobody else uses; `folder`/Xvfb_screen0 holds its picture."""
     reading, writing = os.pipe()
+    options = ["-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-fbdir", folder, "-nolisten", "tcp", "-noreset"]
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-nolisten", "tcp", "-noreset"],
+        ["Xvfb", "-displayfd", str(writing), *options],
         pass_fds=(writing,),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -75,7 +76,7 @@ def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arg
     path of the skyprobe wheel. Whatever Blender complains of on the way is an error unless `complaints_allowed`, with which the
     answer is the pair (answer, output).
     """
-    with tempfile.TemporaryDirectory(dir="/tmp") as folder, virtual_screen() as display:
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder, virtual_screen(folder) as display:
         folder = Path(folder)
         _lay_out(folder, wheel)
         question, answer, log = folder / "question.json", folder / "answer.json", folder / "output.txt"
@@ -86,6 +87,7 @@ def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arg
             "LIBGL_ALWAYS_SOFTWARE": "1",
             "BLENDER_USER_SCRIPTS": folder / "scripts",
             "BLENDER_USER_CONFIG": folder / "config",
+            "SKYPROBE_SCREEN": folder / "Xvfb_screen0",
             "PYTHONDONTWRITEBYTECODE": "1",
             "PYTHONUNBUFFERED": "1",
         }

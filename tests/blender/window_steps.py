@@ -1,9 +1,12 @@
 """What the tests do in a window of Blender. Each function is a generator of its own process (window.run, window_child.py)."""
 
+import os
 import time
 
 import addon_utils
 import bpy
+import numpy as np
+import screen
 
 PACKAGE = "skyprobe_addon"
 
@@ -85,11 +88,10 @@ def click(x, y):
 
 
 def screenshot(path):
-    """Write the window as it is drawn now to `path` (PNG)."""
-    with context("VIEW_3D"):
-        answer = bpy.ops.screen.screenshot(filepath=path)
-    if answer != {"FINISHED"}:
-        raise RuntimeError(f"screenshot: {answer}")
+    """Write the screen as it is drawn now to `path` (PNG); return it, uint8 RGB (H, W, 3), row 0 at the top."""
+    picture = screen.read(os.environ["SKYPROBE_SCREEN"])
+    screen.write_png(path, picture)
+    return picture
 
 
 def draw_panels(picture):
@@ -98,8 +100,12 @@ def draw_panels(picture):
     yield
     yield from show_panels()
     yield 0.5
-    screenshot(picture)
-    return {"version": bpy.app.version_string, "settings": hasattr(bpy.context.scene, "skyprobe")}
+    shown = screenshot(picture)
+    return {
+        "version": bpy.app.version_string,
+        "settings": hasattr(bpy.context.scene, "skyprobe"),
+        "colours": len(np.unique(shown.reshape(-1, 3), axis=0)),
+    }
 
 
 class WINDOW_PT_failing(bpy.types.Panel):
