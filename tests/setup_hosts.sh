@@ -19,6 +19,8 @@ packages=(
     libgl1 libegl1 libgomp1 libice6 libsm6 libx11-6 libxext6 libxfixes3 libxi6 libxkbcommon0 libxrender1 libxxf86vm1
     libllvm19
     gcc libc6-dev ca-certificates
+    # A Blender with a window, a virtual screen and OpenGL in software; it takes numpy from the system.
+    blender python3-numpy xvfb libgl1-mesa-dri
 )
 
 as_root() {

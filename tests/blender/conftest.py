@@ -12,7 +12,7 @@ TESTS = Path(__file__).resolve().parent.parent
 # The interpreter that runs pytest need not be told where the shared modules are.
 sys.path.insert(0, str(TESTS))
 
-from blender import hosts  # noqa: E402
+from blender import hosts, window  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -59,3 +59,34 @@ def host(request, tmp_path_factory):
     answer = host.run("steps.install", archive=str(extension))
     assert answer["version"].startswith(request.param)
     return host
+
+
+@dataclass(frozen=True)
+class Window:
+    """A Blender with a window, into which the add-on is loaded from its folder."""
+
+    blender: window.Blender
+    wheel: Path
+
+    def run(self, function, **arguments):
+        """Let the step function `function` run in a window of its own; see window.run."""
+        return window.run(self.blender, function, self.wheel, **arguments)
+
+
+@pytest.fixture(scope="session", params=window.find_blenders() or [None], ids=lambda blender: blender.name if blender else "none")
+def windowed(request, wheel):
+    """Each Blender in turn that opens a window."""
+    if request.param is None:
+        if os.environ.get("SKYPROBE_SKIP_HOSTS") == "1":
+            pytest.skip("no blender, and SKYPROBE_SKIP_HOSTS=1")
+        pytest.fail("no blender in the PATH: tests/setup_hosts.sh installs it, or set SKYPROBE_SKIP_HOSTS=1")
+    return Window(request.param, wheel)
+
+
+@pytest.fixture
+def pictures(windowed, tmp_path):
+    """The folder for screenshots: one inside SKYPROBE_PICTURES, to look at them, or one that goes."""
+    kept = os.environ.get("SKYPROBE_PICTURES")
+    folder = Path(kept) / windowed.blender.name if kept else tmp_path
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
