@@ -122,3 +122,8 @@ def remove_curve(thing, data_path):
                 bag = strip.channelbag(data.action_slot)
                 if bag is not None:
                     bag.fcurves.remove(curve)
+
+
+def set_linear_rec709(image):
+    """Let the pixels of `image` be linear Rec.709, which Blender before 4.0 calls Linear."""
+    image.colorspace_settings.name = "Linear" if bpy.app.version < (4, 0, 0) else "Linear Rec.709"

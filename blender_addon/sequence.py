@@ -78,7 +78,7 @@ class _Sequence:
         image = bpy.data.images.load(self.files.picture(first), check_existing=False)
         image.name = "Skyprobe Sequence"
         image.source = "SEQUENCE"
-        image.colorspace_settings.name = "Linear Rec.709"
+        compat.set_linear_rec709(image)
         image.alpha_mode = "NONE"
         if bpy.data.filepath:
             image.filepath_raw = bpy.path.relpath(self.files.picture(first))

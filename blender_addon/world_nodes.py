@@ -23,7 +23,7 @@ def load_image(path, pack):
     Always a new datablock: Cycles keeps the old pixels of an image that changes in place.
     """
     image = bpy.data.images.load(path, check_existing=False)
-    image.colorspace_settings.name = "Linear Rec.709"
+    compat.set_linear_rec709(image)
     image.alpha_mode = "NONE"
     if 0 in image.size:
         bpy.data.images.remove(image)
@@ -83,7 +83,7 @@ def with_pixels(image, name, width, pixels):
         image.source = "GENERATED"
     if image is None:
         image = bpy.data.images.new(name, width, height, alpha=False, float_buffer=True)
-        image.colorspace_settings.name = "Linear Rec.709"
+        compat.set_linear_rec709(image)
         image.alpha_mode = "NONE"
     if tuple(image.size) != (width, height):
         image.scale(width, height)
