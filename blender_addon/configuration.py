@@ -87,7 +87,9 @@ def _check(changes, settings):
             # Blender keeps single precision.
             room = 1e-6 * max(abs(kind.hard_min), abs(kind.hard_max), 1e-30)
             if not kind.hard_min - room <= value <= kind.hard_max + room:
-                raise ValueError(f"{name} = {value}: must be from {kind.hard_min:g} to {kind.hard_max:g}")
+                shown = [math.degrees(number) if kind.subtype == "ANGLE" else number for number in (value, kind.hard_min, kind.hard_max)]
+                unit = " degrees" if kind.subtype == "ANGLE" else ""
+                raise ValueError(f"{name} = {shown[0]:g}: must be from {shown[1]:g} to {shown[2]:g}{unit}")
             if kind.type == "INT":
                 changes[name] = int(value)
         elif kind.type == "STRING" and not isinstance(value, str):

@@ -11,6 +11,46 @@ def test_both_panels_are_drawn_without_complaint(windowed, pictures):
     assert answer["colours"] > 500, "an empty screen"
 
 
+def test_the_sky_follows_the_time_slider(windowed, pictures):
+    answer = windowed.run("window_steps.drag_time", picture=str(pictures / "live.png"))
+    print(
+        f"Blender {answer['version']}: pixels {answer['median_ms']:.1f} ms after a change of time (median of 100), {answer['air_ms']:.0f} ms after "
+        f"one of the air; main thread held {answer['held_median_ms']:.2f} ms in the median, {answer['held_ms']:.1f} ms at most"
+    )
+    assert answer["message"] == ""
+    assert answer["images"] == 2, "Cycles keeps the pixels of an image that changes in place"
+    assert answer["last"] == "2025-06-21T16:30:00", "the latest change wins"
+    hours, turns, means = zip(*answer["suns"])
+    assert len(set(means)) == 100, "every change has its own picture"
+    # The Sun goes clockwise, seen from above, all day.
+    assert all(later < earlier for earlier, later in zip(turns, turns[1:]))
+    # Brightest near solar noon, 13:09.
+    brightest = hours[means.index(max(means))]
+    assert abs(brightest - 13.15) < 1.5
+
+
+def test_undo_and_redo_bring_settings_and_sky_back(windowed, pictures):
+    answer = windowed.run("window_steps.undo_and_redo", picture=str(pictures / "undone.png"))
+    stops = answer["stops"]
+    assert [stop[:2] for stop in stops] == [
+        ["added", 13.0], ["at 8.0", 8.0], ["at 20.0", 20.0], ["undo", 8.0], ["undo", 13.0], ["redo", 8.0], ["redo", 20.0],
+    ]
+    assert {stop[2] for stop in stops} == {"PREVIEW"}
+    by_hour = {hour: mean for _, hour, _, _, mean in stops[:3]}
+    for what, hour, _, _, mean in stops[3:]:
+        assert mean == pytest.approx(by_hour[hour], rel=1e-4), f"{what} to {hour}"
+    assert answer["world"] == "World"
+
+
+def test_a_probe_is_rendered_beside_the_work(windowed, pictures, tmp_path):
+    answer = windowed.run("window_steps.render_beside", picture=str(pictures / "rendering.png"), path=str(tmp_path))
+    assert answer["turns"] > 3 and answer["fractions"] > 2, "the interface stood still"
+    assert answer["first"] == ["PROBE", [2048, 1024], True]
+    assert answer["begun"] and answer["key_is_old"], "Esc leaves the scene as it was"
+    assert answer["images"] == 1
+    print(f"Esc ended the render after {1e3 * answer['esc_s']:.0f} ms")
+
+
 def test_what_a_panel_fails_with_is_noticed(windowed):
     with pytest.raises(RuntimeError, match="this panel fails"):
         windowed.run("window_steps.draw_failing_panel")

@@ -1,6 +1,8 @@
 """What the tests do in a window of Blender. Each function is a generator of its own process (window.run, window_child.py)."""
 
 import os
+import statistics
+import sys
 import time
 
 import addon_utils
@@ -105,6 +107,173 @@ def draw_panels(picture):
         "version": bpy.app.version_string,
         "settings": hasattr(bpy.context.scene, "skyprobe"),
         "colours": len(np.unique(shown.reshape(-1, 3), axis=0)),
+    }
+
+
+def drag_time(picture):
+    """Add a sky, turn the viewport to it, and move the time 100 times as a slider does; tell how the pixels followed.
+
+    Every change waits for its picture, and then ten follow without waiting.
+    """
+    enable()
+    yield
+    yield from show_panels()
+    live = sys.modules[f"{PACKAGE}.live"]
+    scene = bpy.context.scene
+    settings = scene.skyprobe
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.add()
+    settings.auto_exposure = True
+    yield 1.0
+    # The worker's own view of the main thread: how long it is held by what we do there.
+    held = []
+    poll = live._poll
+
+    def timed_poll():
+        start = time.perf_counter()
+        try:
+            return poll()
+        finally:
+            held.append(time.perf_counter() - start)
+
+    waits, images, suns = [], set(), []
+    live._poll = timed_poll
+    for step in range(100):
+        settings.hour = 6.0 + 0.12 * step
+        wanted = settings.hour
+        start = time.perf_counter()
+        while not _has_arrived(live, scene):
+            yield 0.0
+        waits.append(time.perf_counter() - start)
+        environment = scene.world.node_tree.nodes["Skyprobe Environment"]
+        images.add(environment.image.name)
+        suns.append([wanted, settings.sun_lamp.rotation_euler.z, mean_of(environment.image)])
+    rush = []
+    for step in range(10):
+        settings.hour = 12.0 + 0.5 * step
+        rush.append(settings.hour)
+    start = time.perf_counter()
+    while not _has_arrived(live, scene):
+        yield 0.0
+    last = live.readout(scene).result.request.time
+    # Without a graphics card a rendered view takes seconds to draw: only for the picture.
+    area("VIEW_3D").spaces.active.shading.type = "RENDERED"
+    yield 2.0
+    screenshot(picture)
+    area("VIEW_3D").spaces.active.shading.type = "SOLID"
+    yield 0.2
+    live._poll = poll
+    settings.preset = "hazy"
+    start = time.perf_counter()
+    while not _has_arrived(live, scene):
+        yield 0.0
+    return {
+        "version": bpy.app.version_string,
+        "median_ms": 1e3 * statistics.median(waits),
+        "air_ms": 1e3 * (time.perf_counter() - start),
+        "held_ms": 1e3 * max(held, default=0.0),
+        "held_median_ms": 1e3 * statistics.median(held or [0.0]),
+        "images": len(images),
+        "suns": suns,
+        "last": last,
+        "message": live.readout(scene).message,
+    }
+
+
+def _has_arrived(live, scene):
+    """Whether the world shows what the settings ask for."""
+    values = sys.modules[f"{PACKAGE}.values"]
+    result = live.readout(scene).result
+    return result is not None and result.request.key == values.preview_request(scene).key
+
+
+def mean_of(image):
+    """Return the mean of the pixels of `image`."""
+    flat = np.empty(4 * image.size[0] * image.size[1], dtype=np.float32)
+    image.pixels.foreach_get(flat)
+    return float(flat.reshape(-1, 4)[:, :3].mean())
+
+
+def undo_and_redo(picture):
+    """Change the time with undo steps between, go back and forth; tell the settings and what the world shows at each stop."""
+    enable()
+    yield
+    live = sys.modules[f"{PACKAGE}.live"]
+    answer = []
+
+    def stop(what):
+        scene = bpy.context.scene
+        while not _has_arrived(live, scene):
+            yield 0.02
+        yield 0.1
+        shown = scene.world.node_tree.nodes["Skyprobe Environment"].image
+        answer.append([what, round(scene.skyprobe.hour, 3), scene.skyprobe.shown, scene.world.name, mean_of(shown)])
+
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.add()
+        bpy.ops.ed.undo_push(message="sky")
+    yield from stop("added")
+    for hour in (8.0, 20.0):
+        bpy.context.scene.skyprobe.hour = hour
+        with context("VIEW_3D"):
+            bpy.ops.ed.undo_push(message=str(hour))
+        yield from stop(f"at {hour}")
+    for what in ("undo", "undo", "redo", "redo"):
+        with context("VIEW_3D"):
+            getattr(bpy.ops.ed, what)()
+        yield from stop(what)
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.remove()
+    world = bpy.context.scene.world.name
+    screenshot(picture)
+    return {"stops": answer, "world": world}
+
+
+def render_beside(picture, path):
+    """Press Render Probe in the window: tell that the interface goes on meanwhile, how the scene is lit then, and that Esc stops another."""
+    enable()
+    yield
+    yield from show_panels()
+    operators, scene_probe = (sys.modules[f"{PACKAGE}.{name}"] for name in ("operators", "scene_probe"))
+    settings = bpy.context.scene.skyprobe
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.add()
+    settings.width_choice, settings.quality = "2048", "high"
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.render("INVOKE_DEFAULT")
+    turns, fractions = 0, set()
+    pictured = False
+    while operators.running_job is not None:
+        turns += 1
+        fractions.add(operators.running_job.fraction)
+        if not pictured and turns > 2:
+            screenshot(picture)
+            pictured = True
+        yield 0.02
+    yield 0.2
+    first = [settings.shown, list(settings.image.size), settings.image.packed_file is not None]
+    # Another air, and Esc while it is solved.
+    settings.preset = "hazy"
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.render("INVOKE_DEFAULT")
+    yield 0.2
+    begun = operators.running_job is not None
+    view = area("VIEW_3D")
+    x, y = view.x + view.width // 3, view.y + view.height // 2
+    window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+    window().event_simulate(type="ESC", value="PRESS", x=x, y=y)
+    window().event_simulate(type="ESC", value="RELEASE", x=x, y=y)
+    start = time.perf_counter()
+    while operators.running_job is not None:
+        yield 0.02
+    return {
+        "turns": turns,
+        "fractions": len(fractions),
+        "first": first,
+        "begun": begun,
+        "esc_s": time.perf_counter() - start,
+        "key_is_old": not operators.is_current(bpy.context.scene),
+        "images": len([image for image in bpy.data.images if image.name.startswith("sky_")]),
     }
 
 

@@ -1,0 +1,134 @@
+"""What the tests let Blender do with presets and configurations. Each function runs in a process of its own (hosts.run)."""
+
+import json
+from pathlib import Path
+
+import bpy
+import numpy as np
+from steps import error_of, part, set_up
+
+# A setting of each kind, other than its default.
+CHANGED = {
+    "latitude": np.radians(-24.6272),
+    "longitude": np.radians(-70.4042),
+    "elevation_m": 2635.0,
+    "year": 2031,
+    "month": 2,
+    "day": 28,
+    "hour": 21.75,
+    "zone_mode": "NAME",
+    "zone_name": "America/Santiago",
+    "preset": "maritime",
+    "aerosol": "desert",
+    "haze": "visibility_km",
+    "visibility_km": 12.5,
+    "use_ozone": True,
+    "ozone_du": 250.0,
+    "use_humidity": True,
+    "relative_humidity": 70.0,
+    "use_stratosphere": True,
+    "stratospheric_aod550": 0.02,
+    "ground": "snow",
+    "quality": "high",
+    "night_when": "always",
+    "star_limit": 6.5,
+    "solar_flux": 180.0,
+    "light_pollution": "4",
+    "led_share": 0.25,
+    "layer_stars": 2.0,
+    "layer_airglow": 0.0,
+    "filter_mode": "HELD",
+    "filter_strength": 0.75,
+    "filter_angle": np.radians(30.0),
+    "filter_altitude": np.radians(10.0),
+    "filter_azimuth": np.radians(200.0),
+    "width_choice": "OTHER",
+    "width": 300,
+    "sun_mode": "MAP",
+}
+
+
+def round_trip(path):
+    """Export all settings, reset them, import them again; tell what the configuration says and which settings differ."""
+    scene = set_up(**CHANGED)
+    settings = scene.skyprobe
+    before = {name: getattr(settings, name) for name in CHANGED}
+    bpy.ops.skyprobe.export_configuration(filepath=path)
+    bpy.ops.skyprobe.reset()
+    reset = [name for name in CHANGED if settings.is_property_set(name)]
+    bpy.ops.skyprobe.import_configuration(filepath=path)
+    after = {name: getattr(settings, name) for name in CHANGED}
+    different = {
+        name: [before[name], after[name]]
+        for name in CHANGED
+        if (before[name] != after[name] if isinstance(before[name], (str, bool)) else abs(before[name] - after[name]) > 1e-4)
+    }
+    return {"different": different, "reset": reset}
+
+
+def offset_times():
+    """Import times in each spelling; tell how the settings then stand."""
+    scene = set_up()
+    settings = scene.skyprobe
+    configuration = part("configuration")
+    answer = {}
+    for text in ("2024-02-29T06:30", "2024-02-29T06:30:15-03:30", "2024-02-29T06:30Z", "2024-02-29T06:30[Asia/Tokyo]"):
+        configuration.to_settings({"time": text}, settings)
+        answer[text] = [settings.zone_mode, settings.zone_name, round(settings.utc_offset, 3), part("values").time(settings)]
+    return answer
+
+
+def shipped():
+    """Apply each preset that comes with the add-on and show it; tell the light on the ground, and the text of each."""
+    scene = set_up()
+    presets, live = part("presets"), part("live")
+    answer = {}
+    for title, path in presets.all_of(presets.OURS):
+        bpy.ops.skyprobe.reset()
+        scene.skyprobe.preview_width = 128
+        presets.apply(scene, path)
+        live.update_now(scene, final=False)
+        answer[title] = {"lx": live.readout(scene).result.horizontal_lx, "text": Path(path).read_text(encoding="utf-8")}
+    return answer
+
+
+def own():
+    """Save, apply and delete a preset of the user's that holds the air alone."""
+    scene = set_up(preset="desert", month=1)
+    presets = part("presets")
+    title = "Ögonblick \N{SUN BEHIND CLOUD}"
+    bpy.ops.skyprobe.save_preset(title=title, sections={"air"})
+    path = dict(presets.all_of(presets.own_folder()))[title]
+    content = json.loads(Path(path).read_text(encoding="utf-8"))
+    scene.skyprobe.preset, scene.skyprobe.month = "clear", 7
+    bpy.ops.skyprobe.apply_preset(filepath=path)
+    applied = [scene.skyprobe.preset, scene.skyprobe.month]
+    bpy.ops.skyprobe.delete_preset(title=title)
+    return {
+        "content": content,
+        "applied": applied,
+        "left": [name for name, _ in presets.all_of(presets.own_folder())],
+        "bad_name": error_of(lambda: bpy.ops.skyprobe.save_preset(title="a/b")),
+    }
+
+
+def refused(folder):
+    """Import files that make no sense; tell the messages and whether a setting changed."""
+    scene = set_up(month=5, preset="hazy")
+    answer = {}
+    for name, text in {
+        "not JSON": "{",
+        "a list": "[1]",
+        "an unknown key": '{"month": 3}',
+        "an unknown preset": '{"time": "2025-01-01T00:00", "atmosphere": {"preset": "stormy"}}',
+        "a text for a number": '{"time": "2025-01-01T00:00", "latitude": "north"}',
+        "a latitude too far": '{"time": "2025-01-01T00:00", "latitude": 95}',
+        "no such date": '{"time": "2025-02-30T00:00"}',
+        "two amounts of haze, one negative": '{"time": "2025-01-01T00:00", "atmosphere": {"aod550": -1}}',
+        "not UTF-8": "\udcff",
+    }.items():
+        path = Path(folder) / "bad.json"
+        path.write_bytes(text.encode("utf-8", "surrogateescape"))
+        message = error_of(lambda: bpy.ops.skyprobe.import_configuration(filepath=str(path)))
+        answer[name] = {"message": message, "unchanged": [scene.skyprobe.month, scene.skyprobe.preset] == [5, "hazy"]}
+    return answer

@@ -1,0 +1,94 @@
+"""Presets and configurations: the same keys as the command line tool, and back."""
+
+import json
+import os
+import subprocess
+
+import pytest
+
+from blender import hosts
+
+
+def skyprobe(*arguments):
+    """Run the command line tool; return what it prints."""
+    binary = os.environ.get("SKYPROBE_BINARY", str(hosts.ROOT / "target" / "release" / "skyprobe"))
+    run = subprocess.run([binary, *arguments], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+def test_a_configuration_goes_out_and_comes_back_whole(host, tmp_path):
+    path = tmp_path / "sky.json"
+    answer = host.run("preset_steps.round_trip", path=str(path))
+    assert answer == {"different": {}, "reset": []}
+    content = json.loads(path.read_text(encoding="utf-8"))
+    assert content["atmosphere"]["visibility_km"] == 12.5 and content["night"]["bortle"] == 4
+    # The command line tool takes the same file, and has read the same numbers.
+    dumped = json.loads(skyprobe("render", "--config", str(path), "-o", str(tmp_path / "sky.exr"), "--dump-config"))
+    for key in ("latitude", "longitude", "elevation_m", "time", "zone", "layers", "polarising_filter"):
+        assert dumped[key] == content[key], key
+    for table in ("atmosphere", "night", "probe"):
+        assert {key: dumped[table][key] for key in content[table]} == content[table]
+
+
+def test_times_of_each_spelling_are_understood(host):
+    assert host.run("preset_steps.offset_times") == {
+        "2024-02-29T06:30": ["PLACE", "Europe/Stockholm", 0.0, "2024-02-29T06:30:00"],
+        "2024-02-29T06:30:15-03:30": ["OFFSET", "Europe/Stockholm", -3.5, "2024-02-29T06:30:15-03:30"],
+        "2024-02-29T06:30Z": ["OFFSET", "Europe/Stockholm", 0.0, "2024-02-29T06:30:00+00:00"],
+        "2024-02-29T06:30[Asia/Tokyo]": ["NAME", "Asia/Tokyo", 0.0, "2024-02-29T06:30:00[Asia/Tokyo]"],
+    }
+
+
+def test_each_preset_that_is_shipped_shows_what_it_promises(host, tmp_path):
+    answer = host.run("preset_steps.shipped")
+    # Illuminance of the ground [lx], wide ranges of what each is called after.
+    expected = {
+        "Airliner at Sunset": (100.0, 2e4),
+        "Blue Hour": (0.5, 30.0),
+        "City Night": (1e-3, 0.3),
+        "Desert Afternoon": (3e4, 1.1e5),
+        "Full Moon": (0.1, 0.5),
+        "Golden Hour": (1e3, 2e4),
+        "Milky Way over Chile": (5e-4, 2e-3),
+        "Morning Fog": (1e3, 3e4),
+        "Polar Night": (20.0, 500.0),
+        "Summer Noon": (6e4, 1.1e5),
+        "Volcanic Twilight": (1.0, 100.0),
+    }
+    assert set(answer) == set(expected)
+    for title, (least, most) in expected.items():
+        assert least < answer[title]["lx"] < most, (title, answer[title]["lx"])
+        content = json.loads(answer[title]["text"])
+        if "latitude" in content:
+            path = tmp_path / "preset.json"
+            path.write_text(answer[title]["text"], encoding="utf-8")
+            skyprobe("render", "--config", str(path), "-o", str(tmp_path / "sky.exr"), "--dump-config")
+
+
+def test_a_preset_of_ones_own_holds_what_was_chosen(host):
+    answer = host.run("preset_steps.own")
+    assert answer["content"] == {"atmosphere": {"preset": "desert", "quality": "draft"}}
+    assert answer["applied"] == ["desert", 7]
+    assert answer["left"] == []
+    assert "must be a file's name" in answer["bad_name"]
+
+
+def test_a_file_that_makes_no_sense_changes_nothing(host, tmp_path):
+    answer = host.run("preset_steps.refused", folder=str(tmp_path))
+    told = {
+        "not JSON": "must be JSON",
+        "a list": "must be a JSON object",
+        "an unknown key": "month = 3",
+        "an unknown preset": "stormy",
+        "a text for a number": "must be a number",
+        "a latitude too far": "latitude",
+        "no such date": "2025-02-30",
+        "two amounts of haze, one negative": "aod550 = -1",
+        "not UTF-8": "must be JSON",
+    }
+    for name, fragment in told.items():
+        assert fragment in answer[name]["message"], (name, answer[name])
+        assert "\n" not in answer[name]["message"]
+        assert answer[name]["unchanged"], name
+    assert "95" in answer["a latitude too far"]["message"]
