@@ -349,3 +349,37 @@ def white_plane_in_eevee():
         "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist(),
         "reflectance": data["materials"]["white"]["reflectance"],
     }
+
+
+def lamp_or_disc(width, samples):
+    """Light a white sphere on a white plane by the Sun as a lamp and in a map of `width`; tell what each sees.
+
+    Radiance of the plane, and of the sphere in bands of the angle between normal and Sun, whose edges are BANDS [degrees].
+    """
+    data = load_scene()
+    answer = {}
+    for sun_in_map in (False, True):
+        scene = set_up(["plane"], "top_camera")
+        view, radius = data["top_camera"], 0.3 * data["top_camera"]["width"]
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=128, radius=radius, location=(0.0, 0.0, radius))
+        bpy.ops.object.shade_smooth()
+        bpy.context.object.data.materials.append(bpy.data.materials["white"])
+        scene.render.resolution_x = scene.render.resolution_y = 160
+        sky = light_with_sun(scene, 40.0, 200.0, width, sun_in_map)
+        picture = picture_of(scene, samples).mean(axis=2, dtype=np.float64)
+        # The camera looks straight down, its columns to the east, its rows to the south.
+        across = (np.arange(160) + 0.5 - 80.0) * view["width"] / 160.0
+        x, y = np.meshgrid(across, -across)
+        square = x**2 + y**2
+        normal = np.stack([x, y, np.sqrt(np.maximum(radius**2 - square, 0.0))], axis=2) / radius
+        cosine = normal @ np.array(sky.sun.apparent_direction)
+        angle = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        ball = square < (0.98 * radius) ** 2
+        bands = [float(picture[ball & (angle >= low) & (angle < high)].mean()) for low, high in zip(BANDS, BANDS[1:])]
+        # Towards the Sun the plane is lit by the Sun and most of the sky.
+        sunny = (square > (1.4 * radius) ** 2) & (x * sky.sun.apparent_direction[0] + y * sky.sun.apparent_direction[1] > 0.0)
+        answer["map" if sun_in_map else "lamp"] = {"plane": float(picture[sunny].mean()), "bands": bands}
+    return answer
+
+
+BANDS = (0.0, 20.0, 40.0, 60.0, 75.0, 82.0, 86.0, 88.0, 90.0, 92.0, 94.0, 98.0, 105.0, 120.0)

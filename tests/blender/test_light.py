@@ -35,3 +35,13 @@ def test_eevee_counts_the_sun_once(host):
     # EEVEE keeps four numbers of the sky's light, good to some percent. Without the Sun about a quarter would be left, with two of them
     # nearly twice as much.
     assert np.array(answer["radiance"]) == pytest.approx(expected, rel=0.15)
+
+
+def test_lamp_and_disc_give_the_same_light(host):
+    # The Sun's disc in a map of 4096 pixels is six pixels wide: a plane and the terminator of a sphere do not see the difference.
+    answer = host.run("steps.lamp_or_disc", width=4096, samples=256)
+    lamp, disc = answer["lamp"], answer["map"]
+    print(f"plane {disc['plane'] / lamp['plane'] - 1.0:+.4%}, bands", [f"{b / a - 1.0:+.2%}" for a, b in zip(lamp["bands"], disc["bands"])])
+    assert disc["plane"] == pytest.approx(lamp["plane"], rel=0.01)
+    assert disc["bands"] == pytest.approx(lamp["bands"], rel=0.01)
+    assert lamp["bands"][0] > 3.0 * lamp["bands"][-1], "the sphere has a lit side"
