@@ -8,7 +8,7 @@
 
 use super::angle;
 use super::limb_darkening::mean_intensity;
-use super::solar_eclipse::{SolarEclipse, free_half_arc};
+use super::eclipsed_sunlight::{EclipsedSunlight, free_half_arc};
 use crate::light::gauss::legendre;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -30,12 +30,12 @@ pub fn relative_radiance(r: f64) -> f64 {
 /// The corona that an eclipse leaves free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corona {
-    eclipse: SolarEclipse,
+    eclipse: EclipsedSunlight,
 }
 
 impl Corona {
     /// Of the given eclipse (or of the uneclipsed Sun, where it drowns in the light of the sky).
-    pub fn new(eclipse: SolarEclipse) -> Self {
+    pub fn new(eclipse: EclipsedSunlight) -> Self {
         Self { eclipse }
     }
 
@@ -80,7 +80,7 @@ mod tests {
     fn corona(moon_over_sun: f64, separation: f64) -> Corona {
         let radius: f64 = 0.2666;
         let away = (radius * separation).to_radians();
-        let eclipse = SolarEclipse::new(DVec3::Y, radius, DVec3::new(0.0, away.cos(), away.sin()), radius * moon_over_sun);
+        let eclipse = EclipsedSunlight::new(DVec3::Y, radius, DVec3::new(0.0, away.cos(), away.sin()), radius * moon_over_sun);
         Corona::new(eclipse.unwrap())
     }
 
