@@ -15,9 +15,10 @@
 //! it is not: the shadow is 100 to 250 km wide, the lit air beyond it shines from all around the horizon. [`remaining_sky_light`] is
 //! the approximation: until shortly before totality the sky is the normal one times V (good to 99.8 % obscuration by measurement:
 //! Sharp, Silverman & Lloyd, Applied Optics 10, 1207, 1971); at totality a remainder is left that was scattered into the umbra: the
-//! zenith has 1e-4 of its normal radiance (Shaw, Applied Optics 14, 388, 1975; Emde & Mayer, Atmospheric Chemistry and Physics 7,
-//! 2259, 2007), the sky nearly symmetric around the zenith and brighter towards the horizon, in all some 3e-4 of the diffuse light (3
-//! of 10 000 lx, as measured at many eclipses: Mollmann & Vollmer, European Journal of Physics 27, 1299, 2006).
+//! zenith has 1e-4 of its normal radiance, the sky nearly symmetric around the zenith and darkest there (Shaw, Applied Optics 14, 388,
+//! 1975); radiance and irradiance fall by three to four orders of magnitude, and the corona adds little (Emde & Mayer, Atmospheric
+//! Chemistry and Physics 7, 2259, 2007). In all some 3e-4 of the diffuse light is left, a few lux as eclipse watchers measure it
+//! (Mollmann & Vollmer, European Journal of Physics 27, 1299, 2006).
 
 use super::limb_darkening::{DISC_MEAN_OF_POWERS, coefficients, mean_intensity, relative_intensity};
 use super::{angle, check_unit_vector};

@@ -12,10 +12,10 @@
 //!
 //! The night side has no relief, so that the terminator is smooth; the Sun's size (0.5 degrees on the Moon) is not resolved there.
 
-use super::shadowed_sunlight::{EarthLimb, ShadowedSunlight};
 use super::moon_irradiance::{DiscReflectance, MoonPhase};
 use super::moon_reflectance::{contrast, disc_function};
 use super::moon_view::MoonView;
+use super::shadowed_sunlight::{EarthLimb, ShadowedSunlight};
 use super::{earthshine, moon_map};
 use crate::ephemeris::MOON_RADIUS_KM;
 use crate::error::Result;
@@ -81,7 +81,8 @@ impl MoonDisc {
         let sun_distance_km = view.sun_distance_au * ASTRONOMICAL_UNIT_KM;
         let shadow = match view.shadow_angle(view.earth_direction) {
             Some(angle)
-                if angle < ShadowedSunlight::greatest_reach(view.earth_distance_km, sun_distance_km) + view.angular_radius() * 1.1 =>
+                if angle
+                    < ShadowedSunlight::greatest_reach(view.earth_distance_km, sun_distance_km) + view.angular_radius() * 1.1 =>
             {
                 let to_earth = sun_distance_km - view.earth_distance_km;
                 Some(Arc::new(ShadowedSunlight::new(&EarthLimb::default(), view.earth_distance_km, to_earth)?))

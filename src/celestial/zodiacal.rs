@@ -4,7 +4,7 @@
 //! f_co = 1 + c(epsilon) log10(lambda / 500 nm),
 //!
 //! I: radiance at 500 nm, Leinert et al. 1998 (A&AS 127, 1), table 17, bilinear in ecliptic longitude from the Sun and latitude.
-//! f_co: reddening, eq. 22: c = 1.2 below 500 nm and 0.8 above it at elongation epsilon <= 30 degrees, 0.9 and 0.6 from 90
+//! f_co: reddening, of the same source: c = 1.2 below 500 nm and 0.8 above it at elongation epsilon <= 30 degrees, 0.9 and 0.6 from 90
 //! degrees on, linear between. So the light has two parts of fixed spectrum (30 and 90 degrees), which share I.
 //!
 //! Within 30 degrees of the Sun in both coordinates the ratio of the table to a power law is interpolated instead of the table

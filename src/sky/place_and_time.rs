@@ -255,7 +255,11 @@ impl Sky {
     fn direct_transmittance(&self, field: &LightField) -> Vec<f64> {
         let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
         let corona = self.corona_share();
-        transmittance.iter().zip(self.uncovered()).map(|(transmittance, uncovered)| transmittance * (uncovered + corona)).collect()
+        transmittance
+            .iter()
+            .zip(self.uncovered())
+            .map(|(transmittance, uncovered)| transmittance * (uncovered + corona))
+            .collect()
     }
 
     /// Light of the corona over that of the whole Sun; 0 where the Sun outshines it.

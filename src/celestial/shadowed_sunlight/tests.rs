@@ -131,7 +131,8 @@ fn the_table_is_fine_enough() {
 
 #[test]
 fn bad_limbs_are_named() {
-    let error = ShadowedSunlight::new(&EarthLimb { ozone_du: -1.0, ..EarthLimb::default() }, MOON_KM, SUN_KM).unwrap_err().to_string();
+    let error =
+        ShadowedSunlight::new(&EarthLimb { ozone_du: -1.0, ..EarthLimb::default() }, MOON_KM, SUN_KM).unwrap_err().to_string();
     assert!(error.starts_with("ozone_du = -1"), "{error}");
     assert!(ShadowedSunlight::new(&EarthLimb::default(), f64::NAN, SUN_KM).is_err());
 }
