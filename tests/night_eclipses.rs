@@ -7,7 +7,7 @@ use glam::DVec3;
 use skyprobe::ephemeris::SunModel;
 use skyprobe::probe::{Grid, Probe, ProbeSettings, Rows, render};
 use skyprobe::progress::Progress;
-use skyprobe::sky::{Disc, Layer, Sky, SkyLight};
+use skyprobe::sky::{Disc, Layer, Model, Sky, SkyLight};
 use skyprobe::spectrum::ColorSpace;
 
 fn probe(light: &dyn SkyLight, settings: ProbeSettings) -> Probe {
@@ -49,9 +49,9 @@ fn local_circumstances_of_1999_are_the_published_ones() {
     ] {
         let sky = sky(latitude, longitude, 0.0, when);
         let eclipse = sky.solar_eclipse().unwrap();
-        println!("{latitude}: {:.4} {:.4}", eclipse.magnitude(), eclipse.obscuration());
-        assert!((eclipse.magnitude() - magnitude).abs() < 0.0015, "{latitude}: {}", eclipse.magnitude());
-        assert!((eclipse.obscuration() - obscuration).abs() < 0.0015, "{latitude}: {}", eclipse.obscuration());
+        println!("{latitude}: {:.4} {:.4}", eclipse.magnitude, eclipse.obscuration);
+        assert!((eclipse.magnitude - magnitude).abs() < 0.0015, "{latitude}: {}", eclipse.magnitude);
+        assert!((eclipse.obscuration - obscuration).abs() < 0.0015, "{latitude}: {}", eclipse.obscuration);
     }
 }
 
@@ -59,8 +59,9 @@ fn local_circumstances_of_1999_are_the_published_ones() {
 fn the_crescent_of_1999_in_lund_is_the_right_one() {
     let sky = sky(55.71, 13.19, 0.0, LUND);
     let eclipse = sky.solar_eclipse().unwrap();
-    assert!((eclipse.magnitude() - 0.797).abs() < 0.001, "{}", eclipse.magnitude());
-    let visible = eclipse.visible_fraction(555.0);
+    assert!((eclipse.magnitude - 0.797).abs() < 0.001, "{}", eclipse.magnitude);
+    let left_over = sky.eclipsed_sunlight().unwrap();
+    let visible = left_over.visible_fraction(555.0);
     let layers = light(&sky);
     let sun = layers.only(Layer::Sun);
     let (whole, nearness) = without_eclipse(&sky);
@@ -68,15 +69,15 @@ fn the_crescent_of_1999_in_lund_is_the_right_one() {
     let left = sun.discs()[0].irradiance[1];
     assert!((left / (whole * visible) - 1.0).abs() < 0.002, "{left} {whole} {visible}");
     let to_sun = sky.sun().apparent_direction();
-    let away = (eclipse.sun_direction() - eclipse.moon_direction()).normalize();
+    let away = (left_over.sun_direction() - left_over.moon_direction()).normalize();
     let expected = centroid(&sun.discs()[0]);
-    assert!(expected.dot(away) > 0.3 * eclipse.sun_radius(), "the uncovered side is the one away from the Moon");
+    assert!(expected.dot(away) > 0.3 * left_over.sun_radius(), "the uncovered side is the one away from the Moon");
     for rows in [Rows::Centre, Rows::Corner] {
         let drawn = vector_sum(&probe(&sun, ProbeSettings { width: 4096, rows, ..Default::default() }));
         assert!((drawn.length() / left - 1.0).abs() < 1e-3, "{rows:?}: {}", drawn.length() / left);
         let offset = drawn.normalize() - to_sun;
-        let error = (offset - expected).length() / eclipse.sun_radius();
-        println!("{rows:?}: centroid off by {error:.5} radii of the Sun, of {:.3}", expected.length() / eclipse.sun_radius());
+        let error = (offset - expected).length() / left_over.sun_radius();
+        println!("{rows:?}: centroid off by {error:.5} radii of the Sun, of {:.3}", expected.length() / left_over.sun_radius());
         assert!(error < 0.01, "{rows:?}: {offset} {expected}");
     }
 }
@@ -111,9 +112,9 @@ fn half_a_sun_lights_half_a_sky() {
     let sky = (0..120)
         .map(|minute| sky(55.71, 13.19, 0.0, LUND).time().unwrap().plus_seconds(-60.0 * f64::from(minute)).unwrap())
         .map(|time| Sky::new(place(55.71, 13.19, 0.0), time, SunModel::Iau, AIR.clone()).unwrap())
-        .find(|sky| sky.solar_eclipse().is_some_and(|eclipse| eclipse.visible_fraction(550.0) > 0.5))
+        .find(|sky| sky.eclipsed_sunlight().is_some_and(|light| light.visible_fraction(550.0) > 0.5))
         .unwrap();
-    let visible = sky.solar_eclipse().unwrap().visible_fraction(555.0);
+    let visible = sky.eclipsed_sunlight().unwrap().visible_fraction(555.0);
     assert!((0.5..0.53).contains(&visible));
     let (whole, nearness) = without_eclipse(&sky);
     for (left, whole) in smooth(&sky).into_iter().zip(smooth(&whole)) {
@@ -133,23 +134,48 @@ fn totality_leaves_the_corona_and_a_ten_thousandth_of_the_sky() {
     let (whole, nearness) = without_eclipse(&sky);
     let [zenith, ground, horizon] = std::array::from_fn(|i| smooth(&sky)[i] / (smooth(&whole)[i] * nearness));
     println!("zenith {zenith:.2e}, ground {ground:.2e}, horizon {horizon:.2e} of the normal light");
-    // checked against: Shaw 1975, Applied Optics 14, 388: 1e-4 in the zenith; the horizon: celestial::solar_eclipse
+    // checked against: Shaw 1975, Applied Optics 14, 388: 1e-4 in the zenith; the horizon: celestial::eclipsed_sunlight
     assert!((zenith / 1e-4 - 1.0).abs() < 0.01 && (horizon / 1e-3 - 1.0).abs() < 0.02);
     let lit = sky.illuminance(&Progress::silent()).unwrap();
     // checked against: Mollmann & Vollmer 2006, European Journal of Physics 27, 1299: some lux at totality
     assert!((1.0..10.0).contains(&lit.global_horizontal_lx), "{lit:?}");
     let full = whole.illuminance(&Progress::silent()).unwrap().global_horizontal_lx * nearness;
-    assert!(
-        (ground / (lit.diffuse_horizontal_lx / full) - 1.0).abs() < 0.1,
-        "the ground is lit by what is left of the sky: {ground}"
-    );
+    assert!((ground / (lit.global_horizontal_lx / full) - 1.0).abs() < 0.1, "the ground is lit by corona and sky: {ground}");
     let layers = light(&sky);
     let corona = layers.only(Layer::Sun).discs();
     assert_eq!(corona.len(), 1);
     let share = corona[0].irradiance[1] / (light(&whole).discs()[0].irradiance[1] * nearness);
-    // checked against: Allen, Astrophysical Quantities: the corona has 0.57e-6 to 1.3e-6 of the Sun's light
+    // checked against: common textbooks: the corona has half of the full Moon's light (2.1 to 2.5e-6 of the Sun's), half of that at spot minimum
     assert!((0.57e-6..1.3e-6).contains(&share), "{share}");
     let seen = probe(&layers, ProbeSettings { width: 1024, ..Default::default() }).irradiance(DVec3::Z)[1] * 683.002;
-    let expected = lit.global_horizontal_lx + 683.002 * corona[0].irradiance[1] * corona[0].direction.z;
+    let expected = lit.global_horizontal_lx;
     assert!((seen / expected - 1.0).abs() < 0.005, "{seen} {expected}");
+    // The corona is all that is left of direct light, in illuminance and in spectral irradiance.
+    println!("corona {:.3} lx, sky {:.3} lx", lit.direct_normal_lx, lit.diffuse_horizontal_lx);
+    assert!((lit.direct_normal_lx / (683.002 * corona[0].irradiance[1]) - 1.0).abs() < 1e-5, "{lit:?}");
+    let [direct, whole] = [&sky, &whole].map(|sky| sky.irradiance(&[550.0], &Progress::silent()).unwrap().direct_normal[0]);
+    assert!((direct / (whole * nearness * share) - 1.0).abs() < 0.001, "{direct} {whole}");
+}
+
+#[test]
+fn stars_are_shown_while_the_sun_is_totally_eclipsed() {
+    let names = |time: &str| sky(48.2, 11.4, 500.0, time).layers_by(Model::Scattering);
+    let night = [Layer::Stars, Layer::MilkyWay, Layer::Zodiacal, Layer::Airglow];
+    for (time, total) in [("12:30", false), ("12:38", true), ("12:45", false)] {
+        let names = names(&format!("1999-08-11T{time}:00+02:00"));
+        assert!(night.iter().all(|layer| names.contains(layer) == total), "{time}: {names:?}");
+    }
+    let at_totality = sky(48.2, 11.4, 500.0, "1999-08-11T12:38:00+02:00");
+    let layers = light(&at_totality);
+    assert_eq!(layers.names(), at_totality.layers_by(Model::Scattering));
+    assert!(layers.only(Layer::Stars).points().len() > 20_000);
+    // Within the corona there is no zodiacal light beside it.
+    let sun = at_totality.sun();
+    let zodiacal = |off_deg: f64| {
+        let mut out = [[0.0_f32; 3]];
+        let azimuth = sun.azimuth_deg.to_radians();
+        layers.only(Layer::Zodiacal).radiance_circle((sun.apparent_altitude_deg + off_deg).to_radians(), &[azimuth], &mut out);
+        out[0][1]
+    };
+    assert!(zodiacal(1.0) < 0.01 * zodiacal(4.0), "{} {}", zodiacal(1.0), zodiacal(4.0));
 }

@@ -33,7 +33,7 @@ fn the_full_moon_near_the_zenith_gives_a_quarter_of_a_lux() {
     let probe = probe(&light(&sky), ProbeSettings { width: 1024, ..Default::default() });
     let lux = LUMINOUS_EFFICACY * probe.irradiance(DVec3::Z)[1];
     println!("full Moon: {lux:.4} lx of the probe, {parts:?}");
-    // checked against: Kyba, Mohar & Posch 2017, Astronomy & Geophysics 58, 1.31: at most 0.32 lx, at perigee in the zenith; RCA Electro-Optics Handbook (1974): 0.267 lx; Krisciunas & Schaefer 1991, eqs. 8 and 20:
+    // checked against: Kyba, Mohar & Posch 2017, Astronomy & Geophysics 58, 1.31: up to 0.32 lx, at perigee high over the tropics; Krisciunas & Schaefer 1991, eqs. 8 and 20:
     // 0.27 lx outside the air at this phase, of which clear air lets 0.2 lx through directly
     assert!((0.2..0.32).contains(&lux), "{lux}");
     assert!((0.19..0.27).contains(&parts.moon_normal_lx), "{parts:?}");
@@ -56,7 +56,7 @@ fn zodiacal_light_without_air_is_the_table() {
             let node = bodies.observer.to_horizon() * (icrs_to_ecliptic_j2000().transpose() * ecliptic);
             (node.z > 0.3).then(|| luminance(&light(&sky).only(Layer::Zodiacal), node))
         });
-        // Eq. 22 of the source: redder than the Sun, less at 90 degrees from it and beyond than at 30.
+        // By the source's formula: redder than the Sun, less at 90 degrees from it and beyond than at 30.
         let elongation = (longitude.to_radians().cos() * latitude.to_radians().cos()).acos().to_degrees();
         let far = ((elongation - 30.0) / 60.0).clamp(0.0, 1.0);
         let (blue, red) = (1.2 + (0.9 - 1.2) * far, 0.8 + (0.6 - 0.8) * far);

@@ -22,23 +22,39 @@ PARTS_IN_SUN = ["plane", "pole", "box", "metal_sphere"]
     ids=["in the Sun", "under the sky alone, with glass"],
 )
 def test_cycles_and_mitsuba_agree_on_diffuse_pixels(tmp_path, sun_disc, parts, cycles_samples, mitsuba_samples):
-    hosts.python_of(BLENDER)
     air = sp.Atmosphere(**SCENE["air"])
     sky = sp.Sky.with_sun(altitude_deg=SCENE["sun"]["altitude_deg"], azimuth_deg=SCENE["sun"]["azimuth_deg"], atmosphere=air)
+    check_agreement(tmp_path, sky, SCENE, sun_disc, parts, (cycles_samples, mitsuba_samples))
+
+
+def test_they_agree_by_starlight(tmp_path):
+    # Thousands of pixels with a star each and light of 1e-9: half the resolution is enough for it.
+    camera = {**SCENE["camera"], "resolution": [size // 2 for size in SCENE["camera"]["resolution"]]}
+    place = {"latitude": -24.6272, "longitude": -70.4042, "elevation_m": 2635.0}
+    sky = sp.Sky(**place, time="2005-07-06T04:00:00Z", atmosphere=sp.Atmosphere(**SCENE["air"]))
+    check_agreement(tmp_path, sky, {**SCENE, "camera": camera}, True, PARTS_IN_SUN, (512, 1024))
+
+
+def check_agreement(folder, sky, scene, sun_disc, parts, samples):
+    """Assert that both renderers draw `scene` alike where it is diffuse; `samples` of Cycles and of Mitsuba."""
+    hosts.python_of(BLENDER)
+    (cycles_samples, mitsuba_samples), resolution = samples, scene["camera"]["resolution"]
     probes = {}
     # Each renderer gets the rows that it reads; the unit is the same, so the pictures compare as they are.
     for rows in ("centre", "corner"):
-        probes[rows] = tmp_path / f"{rows}.exr"
-        sky.render(width=SCENE["probe_width"], scale="mitsuba", rows=rows, sun_disc=sun_disc).save(probes[rows])
+        probes[rows] = folder / f"{rows}.exr"
+        sky.render(width=scene["probe_width"], scale="mitsuba", rows=rows, sun_disc=sun_disc).save(probes[rows])
 
     variant = "llvm_ad_rgb" if mitsuba_half.llvm_library() else "scalar_rgb"
     objects = parts and [*parts, "pole_cap"]
     in_mitsuba = mitsuba_half.render_mitsuba(
-        probes["corner"], tmp_path / "mitsuba.npy", variant=variant, objects=objects, spp=mitsuba_samples
+        probes["corner"], folder / "mitsuba.npy", variant=variant, objects=objects, spp=mitsuba_samples, resolution=resolution
     )
-    in_cycles = render_blender(probes["centre"], tmp_path / "cycles.npy", version=BLENDER, samples=cycles_samples, parts=parts)
+    in_cycles = render_blender(
+        probes["centre"], folder / "cycles.npy", version=BLENDER, samples=cycles_samples, parts=parts, resolution=resolution
+    )
 
-    mask = diffuse_mask(SCENE)
+    mask = diffuse_mask(scene)
     in_mitsuba, _ = analysis.halved(in_mitsuba, mask)
     in_cycles, mask = analysis.halved(in_cycles, mask)
     assert mask.mean() > 0.5

@@ -491,11 +491,11 @@ class Irradiance:
 
     @property
     def direct_normal(self) -> NDArray[numpy.float64]:
-        """Of the Sun's disc, on a plane that faces it. [W m-2 nm-1]"""
+        """Of the Sun's disc, at a total eclipse of its corona, on a plane that faces it. [W m-2 nm-1]"""
 
     @property
     def direct_horizontal(self) -> NDArray[numpy.float64]:
-        """Of the Sun's disc, on the horizontal plane. [W m-2 nm-1]"""
+        """Of the same, on the horizontal plane. [W m-2 nm-1]"""
 
     @property
     def diffuse_horizontal(self) -> NDArray[numpy.float64]:
@@ -507,11 +507,11 @@ class Illuminance:
 
     @property
     def direct_normal_lx(self) -> float:
-        """Of the Sun's disc, on a plane that faces it. [lx]"""
+        """Of the Sun's disc, at a total eclipse of its corona, on a plane that faces it. [lx]"""
 
     @property
     def direct_horizontal_lx(self) -> float:
-        """Of the Sun's disc, on the horizontal plane. [lx]"""
+        """Of the same, on the horizontal plane. [lx]"""
 
     @property
     def moon_normal_lx(self) -> float:
@@ -567,7 +567,7 @@ class Night:
     Parameters
     ----------
     when
-        "auto": Moon and planets always, and while the Sun's centre is below the horizon moonlight in the air, stars and diffuse light too, which by
+        "auto": Moon and planets always, and while the Sun's centre is below the horizon or the Sun totally eclipsed moonlight in the air, stars and diffuse light too, which by
         day are less than a thousandth of the light. "always": all of them by day, too. "never": none.
     star_limit
         Stars to this magnitude V are drawn one by one, -2 to 8.5; the light of fainter ones is part of the Milky Way.
@@ -814,7 +814,7 @@ class Sky:
         color_space: _ColorSpace = "lin_rec709",
         progress: _Progress | None = None,
     ) -> tuple[float, float, float]:
-        """Irradiance of the Sun's disc on a plane that faces it, in the units of a probe with this scale and colour space times sr."""
+        """Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr."""
 
     def moon_irradiance_rgb(
         self,

@@ -7,11 +7,12 @@
 //! continuum, 250 km for 630.0 and 636.4 nm.
 //!
 //! - A: such that the zenith has 112 ucd m-2 at the long-term mean S = 1.3 of the solar radio flux at 10.7 cm in MJy, and grows with it as 145 + 130 (S - 0.8) / 1.2
-//!   (Krisciunas 1997, PASP 109, 1181). The mean is what makes a natural zenith at high latitudes, between the stars and away from the Milky Way, V 21.9 to 22.0: the reference of maps of artificial
-//!   light (174 ucd m-2: Cinzano, Falchi & Elvidge 2001, MNRAS 328, 689; Falchi et al. 2016). Measured skies scatter about it: Paranal at high activity V 21.6 +- 0.2 (Patat 2003), here 21.75; La Palma at
-//!   minimum V 21.9 (Benn & Ellison 1998, New Astron. Rev. 42, 503), here 22.05, which would ask for 166 ucd m-2 at the mean. Single nights differ by a factor of 2 either way: `strength`.
-//! - Lines at that mean in rayleigh: OI 557.7 nm 200, Na 589.0/589.6 nm 50, OI 630.0 nm 60, 636.4 nm 20 (Leinert et al. 1998, A&AS
-//!   127, 1, table 13, gives 250, 30 to 100, 60, 20). Hydroxyl bands 9-3, 6-1, 7-2 and 8-3: rounded; they hold 2 % of the
+//!   (in S10(V), as in Benn & Ellison 1998, who find the sky 0.4 mag brighter at solar maximum; yearly means of the airglow over Mauna Kea vary more, by a factor of 4.5: Krisciunas 1997, PASP 109, 1181).
+//!   The mean is what makes a natural zenith at high latitudes, between the stars and away from the Milky Way, V 21.9 to 22.0: the reference of maps of artificial light (V 22, 1.7e-4 cd m-2: Falchi et al.
+//!   2016, Science Advances 2, e1600377). Measured skies scatter about it: Paranal at high activity V 21.6 +- 0.2 (Patat 2003), here 21.75; La Palma at minimum V 21.9 (Benn & Ellison 1998, New Astron. Rev.
+//!   42, 503), here 22.05, which would ask for 166 ucd m-2 at the mean. Single nights differ by a factor of 2 either way: `strength`.
+//! - Lines at that mean in rayleigh: OI 557.7 nm 200, Na 589.0/589.6 nm 50, OI 630.0 nm 60, 636.4 nm 20: rounded, within the range of published nights (after Leinert et al. 1998, A&AS 127, 1, on
+//!   airglow). Hydroxyl bands 9-3, 6-1, 7-2 and 8-3: rounded; they hold 2 % of the
 //!   luminance.
 //! - Continuum (NO2, FeO, O2 bands unresolved) in rayleigh per nm: shape of the zenith spectrum of Kitt Peak at solar minimum
 //!   (Neugent & Massey 2010, PASP 122, 1246) less zodiacal light, starlight and half of the bump around 595 nm, which there is
@@ -184,7 +185,7 @@ mod tests {
     fn scaling_to_the_published_brightness_leaves_the_published_lines() {
         let fine: Vec<f64> = visible_nm().collect();
         let green = mean().spectra(&fine)[0][(558 - 360) as usize] / (rayleigh(557.73) * 0.73);
-        // checked against: Leinert et al. 1998, table 13: OI 557.7 nm 250 R; Neugent & Massey 2010: 125 R at solar minimum
+        // checked against: Leinert et al. 1998: OI 557.7 nm 250 R; Neugent & Massey 2010: 125 R at solar minimum
         assert!((125.0..250.0).contains(&green), "{green}");
         // checked against: Neugent & Massey 2010, Kitt Peak zenith at solar minimum: 4.2 R/nm at 500 nm left after zodiacal light
         // and faint stars, with some artificial light in it
@@ -194,8 +195,7 @@ mod tests {
 
     #[test]
     fn the_layer_brightens_towards_the_horizon() {
-        // checked against: Leinert et al. 1998, section 5: about 6 at the horizon for 90 to 100 km; 1 / sqrt(1 - (6371/6461)^2) =
-        // 6.01
+        // checked against: closed form at the horizon, 1 / sqrt(1 - (6371/6461)^2) = 6.01
         assert!((van_rhijn(FRAC_PI_2, 90.0, 0.0) - 6.01).abs() < 0.01);
         assert!((van_rhijn(FRAC_PI_2, 250.0, 0.0) - 3.67).abs() < 0.01);
         assert_eq!(van_rhijn(0.0, 90.0, 3.0), 1.0);

@@ -2,13 +2,13 @@
 //!
 //! B(r) = 1e-6 (2.565 r^-17 + 1.425 r^-7 + 0.0532 r^-2.5) times the brightness of the middle of the Sun's disc,
 //!
-//! r: distance from the Sun's centre in its radii. Source: Baumbach, Astronomische Nachrichten 263, 121 (1937), as given by Golub &
-//! Pasachoff, The Solar Corona (2010), chapter 1: mean of ten eclipses. The corona of a year of many spots is about half as bright
+//! r: distance from the Sun's centre in its radii. Source: Baumbach, Astronomische Nachrichten 263, 121 (1937), as quoted by Golub &
+//! Pasachoff, The Solar Corona: a mean of many eclipses. The corona of a year of many spots is about half as bright
 //! again, that of a quiet Sun less, flattened at the poles and streaked; here it is round.
 
 use super::angle;
+use super::eclipsed_sunlight::{EclipsedSunlight, free_half_arc};
 use super::limb_darkening::mean_intensity;
-use super::solar_eclipse::{SolarEclipse, free_half_arc};
 use crate::light::gauss::legendre;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -30,12 +30,12 @@ pub fn relative_radiance(r: f64) -> f64 {
 /// The corona that an eclipse leaves free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corona {
-    eclipse: SolarEclipse,
+    eclipse: EclipsedSunlight,
 }
 
 impl Corona {
     /// Of the given eclipse (or of the uneclipsed Sun, where it drowns in the light of the sky).
-    pub fn new(eclipse: SolarEclipse) -> Self {
+    pub fn new(eclipse: EclipsedSunlight) -> Self {
         Self { eclipse }
     }
 
@@ -80,7 +80,7 @@ mod tests {
     fn corona(moon_over_sun: f64, separation: f64) -> Corona {
         let radius: f64 = 0.2666;
         let away = (radius * separation).to_radians();
-        let eclipse = SolarEclipse::new(DVec3::Y, radius, DVec3::new(0.0, away.cos(), away.sin()), radius * moon_over_sun);
+        let eclipse = EclipsedSunlight::new(DVec3::Y, radius, DVec3::new(0.0, away.cos(), away.sin()), radius * moon_over_sun);
         Corona::new(eclipse.unwrap())
     }
 
@@ -91,8 +91,7 @@ mod tests {
             TERMS.iter().map(|&(c, p)| 2.0 * c * (REACH.powf(p + 2.0) - 1.0) / (p + 2.0)).sum::<f64>() / mean_intensity(550.0);
         let whole = corona(1.0, 0.0).irradiance_ratio();
         assert!((whole / exact - 1.0).abs() < 1e-6, "{whole} {exact}");
-        // checked against: Allen, Astrophysical Quantities: total light of the corona beyond 1.03 radii, 0.57 (spot minimum) to 1.3e-6
-        // (maximum) of the Sun's, the full Moon 2.1 to 2.5e-6
+        // checked against: common textbooks: half of the full Moon's light (2.1 to 2.5e-6 of the Sun's), half of that at spot minimum
         let total = corona(1.03, 0.0).irradiance_ratio();
         println!("corona beyond 1.03 radii: {total:.3e} of the Sun");
         assert!((0.57e-6..1.3e-6).contains(&total), "{total}");

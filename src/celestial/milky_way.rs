@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn poles_and_clouds_have_published_brightness() {
         let light = MilkyWay::new(6.5).unwrap();
-        // checked against: Leinert et al. 1998, section 10: some 25 to 30 S10(V) at the galactic poles without the naked-eye
+        // checked against: Leinert et al. 1998: some 25 to 30 S10(V) at the galactic poles without the naked-eye
         // stars
         for (ra, dec) in [(192.86, 27.13), (12.86, -27.13)] {
             assert!((23.0..31.0).contains(&at(&light, ra, dec)), "{}", at(&light, ra, dec));

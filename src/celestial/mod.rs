@@ -2,7 +2,7 @@
 //! and its corona; spectral radiance of the zodiacal light, the Milky Way, the airglow and of scattered artificial light.
 //!
 //! Inputs are plain geometry (unit vectors, distances, a rotation); extinction and scattering by the observer's air, images and hosts come later and are not known here. One piece of air does
-//! belong here: the Earth's limb, whose refracted light fills the Earth's shadow. For it [`earth_shadow`] and [`limb_rays`] use optical functions of the standard atmosphere from [`crate::atmosphere`].
+//! belong here: the Earth's limb, whose refracted light fills the Earth's shadow. For it [`shadowed_sunlight`] and [`limb_rays`] use optical functions of the standard atmosphere from [`crate::atmosphere`].
 //!
 //! Discs, too, are drawn with scalars: [`MoonDisc`] is a sum of a few components, each a fixed spectrum times a number at each point, so that the caller takes each spectrum through the air once.
 //!
@@ -45,8 +45,8 @@
 mod airglow;
 pub mod corona;
 mod diffuse;
-pub mod earth_shadow;
 pub mod earthshine;
+pub mod eclipsed_sunlight;
 mod lamps;
 mod light_pollution;
 pub mod limb_darkening;
@@ -59,7 +59,7 @@ pub mod moon_reflectance;
 pub mod moon_view;
 pub mod photometry;
 mod planet_light;
-pub mod solar_eclipse;
+pub mod shadowed_sunlight;
 mod star_spectra;
 mod stars;
 #[cfg(test)]
@@ -69,7 +69,7 @@ mod zodiacal;
 pub use airglow::{Airglow, van_rhijn};
 pub use corona::Corona;
 pub use diffuse::DiffuseLight;
-pub use earth_shadow::{EarthLimb, EarthShadow};
+pub use eclipsed_sunlight::EclipsedSunlight;
 pub use lamps::Lamps;
 pub use light_pollution::{LightPollution, bortle_zenith_brightness};
 pub use milky_way::{MilkyWay, starlight_to};
@@ -77,7 +77,7 @@ pub use moon_disc::{MoonDisc, MoonPoint};
 pub use moon_irradiance::MoonPhase;
 pub use moon_view::MoonView;
 pub use planet_light::{geometric_albedo, planet_irradiance};
-pub use solar_eclipse::SolarEclipse;
+pub use shadowed_sunlight::{EarthLimb, ShadowedSunlight};
 pub use star_spectra::StarSpectra;
 pub use stars::{Star, star_named, stars_to};
 pub use zodiacal::ZodiacalLight;

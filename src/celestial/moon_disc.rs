@@ -12,10 +12,10 @@
 //!
 //! The night side has no relief, so that the terminator is smooth; the Sun's size (0.5 degrees on the Moon) is not resolved there.
 
-use super::earth_shadow::{EarthLimb, EarthShadow};
 use super::moon_irradiance::{DiscReflectance, MoonPhase};
 use super::moon_reflectance::{contrast, disc_function};
 use super::moon_view::MoonView;
+use super::shadowed_sunlight::{EarthLimb, ShadowedSunlight};
 use super::{earthshine, moon_map};
 use crate::ephemeris::MOON_RADIUS_KM;
 use crate::error::Result;
@@ -54,7 +54,7 @@ pub struct MoonDisc {
 /// The part of the shadow's table that the disc needs.
 #[derive(Clone, Debug)]
 struct Shadow {
-    table: Arc<EarthShadow>,
+    table: Arc<ShadowedSunlight>,
     first: usize,
     count: usize,
 }
@@ -81,10 +81,11 @@ impl MoonDisc {
         let sun_distance_km = view.sun_distance_au * ASTRONOMICAL_UNIT_KM;
         let shadow = match view.shadow_angle(view.earth_direction) {
             Some(angle)
-                if angle < EarthShadow::greatest_reach(view.earth_distance_km, sun_distance_km) + view.angular_radius() * 1.1 =>
+                if angle
+                    < ShadowedSunlight::greatest_reach(view.earth_distance_km, sun_distance_km) + view.angular_radius() * 1.1 =>
             {
                 let to_earth = sun_distance_km - view.earth_distance_km;
-                Some(Arc::new(EarthShadow::new(&EarthLimb::default(), view.earth_distance_km, to_earth)?))
+                Some(Arc::new(ShadowedSunlight::new(&EarthLimb::default(), view.earth_distance_km, to_earth)?))
             }
             _ => None,
         };
@@ -92,7 +93,7 @@ impl MoonDisc {
     }
 
     /// The disc in `view` with a given shadow of the Earth, or none.
-    pub fn with_shadow(view: MoonView, shadow: Option<Arc<EarthShadow>>) -> Result<Self> {
+    pub fn with_shadow(view: MoonView, shadow: Option<Arc<ShadowedSunlight>>) -> Result<Self> {
         view.validate()?;
         let phase = view.phase_angle();
         let parallax = view.parallax_angle().to_degrees();
@@ -241,7 +242,7 @@ impl MoonDisc {
     }
 
     /// The nodes of the table that the disc touches, or `None` if it is outside the shadow.
-    fn cut(&self, table: Arc<EarthShadow>) -> Option<Shadow> {
+    fn cut(&self, table: Arc<ShadowedSunlight>) -> Option<Shadow> {
         let centre = self.view.shadow_angle(self.view.earth_direction)?;
         let reach = 1.02 * MOON_RADIUS_KM / self.view.earth_distance_km;
         if centre - reach >= table.reach() {

@@ -8,7 +8,7 @@
 //!
 //! A_k: disc-equivalent reflectance in band k: the disc's mean of pi L / E_sun over all its solid angle Omega, dark part included. g: phase
 //! angle (in radians with a, in degrees with d and p); Phi: selenographic longitude of the Sun, positive while the Moon
-//! waxes (radians); theta, phi: selenographic latitude and longitude of the observer (degrees). Coefficients of tables 4 and 5, model 311g.
+//! waxes (radians); theta, phi: selenographic latitude and longitude of the observer (degrees). Coefficients: the paper's, model 311g.
 //! Some transcriptions have theta and phi exchanged in the terms of c; a map of the Moon, which a test in `moon_disc.rs` integrates,
 //! decides for this form.
 //!
@@ -47,7 +47,7 @@ const fn band(wavelength_nm: f64, a: [f64; 4], b: [f64; 3], d: [f64; 3]) -> Band
     Band { wavelength_nm, a, b, d }
 }
 
-/// Table 4, the bands up to 882 nm (the other eleven are infrared).
+/// Coefficients by band up to 882 nm (the other eleven are infrared).
 const BANDS: [Band; 21] = [
     band(350.0, [-2.67511, -1.78539, 0.50612, -0.25578], [0.03744, 0.00981, -0.00322], [0.34185, 0.01441, -0.01602]),
     band(355.1, [-2.71924, -1.74298, 0.44523, -0.23315], [0.03492, 0.01142, -0.00383], [0.33875, 0.01612, -0.00996]),
@@ -72,7 +72,7 @@ const BANDS: [Band; 21] = [
     band(882.0, [-1.73011, -1.61156, 0.36115, -0.19576], [0.04847, 0.01065, -0.00404], [0.40714, -0.21499, 0.01146]),
 ];
 
-/// Table 5: c in 1 / degree, p in degrees.
+/// Coefficients of all bands: c in 1 / degree, p in degrees.
 const C: [f64; 4] = [0.000_341_15, -0.001_342_5, 0.000_959_06, 0.000_662_29];
 const P: [f64; 4] = [4.060_54, 12.8802, -30.5858, 16.7498];
 
@@ -263,7 +263,7 @@ mod tests {
         assert!((mean(7.0) - 0.28).abs() < 0.01, "{}", mean(7.0));
         assert!((mean(45.0) - 0.105).abs() < 0.006, "{}", mean(45.0));
         assert!((mean(90.0) - 0.03).abs() < 0.003, "{}", mean(90.0));
-        // checked against: Allen, Astrophysical Quantities: V = -12.73 + 0.026 g (linear part, without opposition effect)
+        // checked against: Krisciunas & Schaefer 1991 after Allen: V = -12.73 + 0.026 g (linear part, without opposition effect)
         for deg in [7.0, 20.0, 40.0] {
             let allen = -12.73 + 0.026 * deg;
             assert!((magnitude(mean(deg)) - allen).abs() < 0.08, "{deg}: {} {allen}", magnitude(mean(deg)));

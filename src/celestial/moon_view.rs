@@ -110,7 +110,7 @@ impl MoonView {
         (depth >= 0.0).then(|| ((offset - depth.sqrt() * direction) / MOON_RADIUS_KM).normalize())
     }
 
-    /// Angular distance from the axis of the Earth's shadow, as [`super::EarthShadow`] counts it, of a surface point [radians]; `None`
+    /// Angular distance from the axis of the Earth's shadow, as [`super::ShadowedSunlight`] counts it, of a surface point [radians]; `None`
     /// if the point is not behind the Earth.
     pub fn shadow_angle(&self, normal: DVec3) -> Option<f64> {
         let sun = self.sun_direction * (self.sun_distance_au * ASTRONOMICAL_UNIT_KM);

@@ -4,7 +4,7 @@
 //!
 //! E: irradiance [W m-2 nm-1]; V(lambda): passband (Bessell 1990, PASP 102, 1181, table 2); lambda: counts photons; F_0 =
 //! 3.631e-11 W m-2 nm-1 (Bessell, Castelli & Plez 1998, A&A 333, 231, table A2).
-//! Illuminance of a star of V = 0: 2.54e-6 lx (Allen, Astrophysical Quantities, section 1.7); its luminance spread over a square
+//! Illuminance of a star of V = 0: 2.54e-6 lx (Allen, Astrophysical Quantities); its luminance spread over a square
 //! arcsecond or, for V = 10, over a square degree gives the conversions of surface brightness.
 
 use crate::spectrum::observer;
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn units_of_surface_brightness_agree() {
-        // checked against: Leinert et al. 1998, A&AS 127, 1, section 2: 1 S10(V) is 27.78 magnitudes per square arcsecond
+        // checked against: by definition 1 S10(V) is 10 + 2.5 log10(3600^2) = 27.78 magnitudes per square arcsecond
         assert!((surface_brightness_of_luminance(S10_LUMINANCE) - 27.78).abs() < 0.005);
         // checked against: Garstang 1986, PASP 98, 364: L = 34.08 exp(20.7233 - 0.92104 V) nanolambert; 1 nL = 1e-5 / pi cd m-2
         let garstang = 34.08 * (20.7233f64 - 0.92104 * 22.0).exp() * 1e-5 / PI;

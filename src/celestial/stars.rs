@@ -122,7 +122,7 @@ mod tests {
         assert!((light_s10(6.5) - 23.0).abs() < 2.0, "{}", light_s10(6.5));
         let count = stars_to(6.5).len();
         assert!((8_800..9_110).contains(&count), "{count}");
-        // checked against: Allen, Astrophysical Quantities (1973), section 115: about 41 000 stars to V 8
+        // checked against: Allen, Astrophysical Quantities (1973): about 41 000 stars to V 8
         assert!((38_000..44_000).contains(&stars_to(8.0).len()), "{}", stars_to(8.0).len());
     }
 

@@ -23,13 +23,13 @@ fn a_moonless_zenith_is_as_dark_as_published() {
     // checked against: Benn & Ellison 1998, New Astron. Rev. 42, 503: V 21.9 at solar minimum, zenith, high latitudes; Patat 2003, A&A 400, 1183: Paranal, 21.6 +- 0.2 at high solar activity
     assert!((zenith(80.0) - 21.9).abs() < 0.2, "{}", zenith(80.0));
     assert!((zenith(175.0) - 21.6).abs() < 0.2, "{}", zenith(175.0));
-    // checked against: Cinzano, Falchi & Elvidge 2001, MNRAS 328, 689: natural zenith between the stars 174 ucd m-2 at mean activity; here starlight too
+    // checked against: Falchi et al. 2016, Science Advances 2, e1600377: natural zenith between the stars V 22; here starlight too
     assert!((21.75..22.0).contains(&zenith(Airglow::MEAN_SOLAR_FLUX_SFU)), "{}", zenith(Airglow::MEAN_SOLAR_FLUX_SFU));
 }
 
 #[test]
 fn the_natural_shares_are_the_published_ones() {
-    // checked against: Benn & Ellison 1998: airglow 145 S10(V), zodiacal light at the ecliptic pole 60
+    // checked against: Leinert et al. 1998 and Benn & Ellison 1998: zodiacal light at the ecliptic pole 60 S10(V)
     let zodiacal = ZodiacalLight::new(DVec3::X).luminance(ecliptic_pole()) / S10_LUMINANCE;
     assert!((zodiacal - 60.0).abs() < 6.0, "{zodiacal}");
     let gegenschein = ZodiacalLight::new(DVec3::X).luminance(-DVec3::X) / S10_LUMINANCE;

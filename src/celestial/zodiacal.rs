@@ -4,14 +4,14 @@
 //! f_co = 1 + c(epsilon) log10(lambda / 500 nm),
 //!
 //! I: radiance at 500 nm, Leinert et al. 1998 (A&AS 127, 1), table 17, bilinear in ecliptic longitude from the Sun and latitude.
-//! f_co: reddening, eq. 22: c = 1.2 below 500 nm and 0.8 above it at elongation epsilon <= 30 degrees, 0.9 and 0.6 from 90
+//! f_co: reddening, of the same source: c = 1.2 below 500 nm and 0.8 above it at elongation epsilon <= 30 degrees, 0.9 and 0.6 from 90
 //! degrees on, linear between. So the light has two parts of fixed spectrum (30 and 90 degrees), which share I.
 //!
 //! Within 30 degrees of the Sun in both coordinates the ratio of the table to a power law is interpolated instead of the table
 //! itself, and where the table is empty (within 10 degrees of the Sun) the power law stands alone: I = I(15, 0) (e / 15
 //! degrees)^-2.1, e = (|dlambda|^1.55 + (1.856 |beta|)^1.55)^(1/1.55); it fits five nodes around the gap within 3 %.
 //! Nearer than the Sun's limb e is kept at 0.27 degrees. The inner light is the F corona: with a corona drawn, take one of the
-//! two.
+//! two ([`ZodiacalLight::beyond`]).
 //!
 //! The table is an annual mean at 1 au; the tilt of the dust's plane of symmetry changes the light by up to 10 % in the course of
 //! the year.
@@ -84,6 +84,8 @@ pub struct ZodiacalLight {
     sun: DVec3,
     sun_longitude_rad: f64,
     to_ecliptic: DMat3,
+    /// Elongation within which there is nothing [radians].
+    inner: f64,
 }
 
 impl ZodiacalLight {
@@ -91,7 +93,12 @@ impl ZodiacalLight {
     pub fn new(sun: DVec3) -> Self {
         let to_ecliptic = icrs_to_ecliptic_j2000();
         let ecliptic = to_ecliptic * sun;
-        Self { sun, sun_longitude_rad: ecliptic.y.atan2(ecliptic.x), to_ecliptic }
+        Self { sun, sun_longitude_rad: ecliptic.y.atan2(ecliptic.x), to_ecliptic, inner: 0.0 }
+    }
+
+    /// The same without the light within `elongation` of the Sun's centre [radians].
+    pub fn beyond(self, elongation: f64) -> Self {
+        Self { inner: elongation, ..self }
     }
 
     /// Radiance at 500 nm from `direction` (ICRS unit vector) [W m-2 sr-1 nm-1].
@@ -119,9 +126,12 @@ impl DiffuseLight<2> for ZodiacalLight {
     }
 
     fn scalars(&self, direction: DVec3) -> [f64; 2] {
+        let elongation = direction.dot(self.sun).clamp(-1.0, 1.0).acos();
+        if elongation < self.inner {
+            return [0.0; 2];
+        }
         let value = self.radiance_500(direction);
-        let elongation = direction.dot(self.sun).clamp(-1.0, 1.0).acos().to_degrees();
-        let far = ((elongation - 30.0) / 60.0).clamp(0.0, 1.0);
+        let far = ((elongation.to_degrees() - 30.0) / 60.0).clamp(0.0, 1.0);
         [value * (1.0 - far), value * far]
     }
 }
@@ -185,6 +195,21 @@ mod tests {
         let expected = |blue: f64, red: f64| (1.0 + red * 1.28f64.log10()) / (1.0 + blue * 0.88f64.log10());
         assert!((colour(20.0) - expected(1.2, 0.8)).abs() < 1e-9 && (colour(150.0) - expected(0.9, 0.6)).abs() < 1e-9);
         assert!((colour(60.0) - 0.5 * (expected(1.2, 0.8) + expected(0.9, 0.6))).abs() < 2e-3);
+    }
+
+    #[test]
+    fn the_corona_goes_over_into_it() {
+        let sun = icrs(100.0, 0.0);
+        let reach = super::super::corona::REACH * 0.2666_f64.to_radians();
+        let light = ZodiacalLight::new(sun).beyond(reach);
+        let at = |share: f64| light.scalars(icrs(100.0 + share * reach.to_degrees(), 0.0));
+        assert_eq!(at(0.99), [0.0; 2]);
+        assert!(at(1.01)[0] > 0.0);
+        // The Sun's disc: its irradiance over its solid angle.
+        let disc = solar::irradiance(500.0, 10.0) / (std::f64::consts::PI * 0.2666_f64.to_radians().powi(2));
+        let ratio = at(1.001)[0] / (disc * super::super::corona::relative_radiance(super::super::corona::REACH));
+        println!("zodiacal light over corona where they meet: {ratio:.2}");
+        assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
 
     #[test]

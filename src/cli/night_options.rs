@@ -11,7 +11,7 @@ const NIGHT: &str = "Night";
 pub struct NightCommandOptions {
     /// When Moon, stars and the other lights of the night are in the sky: auto, always or never. Default: auto.
     ///
-    /// auto: Moon and planets always, all else while the Sun's centre is below the horizon; by day it is less than a thousandth of the light.
+    /// auto: Moon and planets always, all else while the Sun's centre is below the horizon or the Sun totally eclipsed; by day it is less than a thousandth of the light.
     #[arg(long, value_name = "WHEN", help_heading = NIGHT)]
     night: Option<String>,
     /// Draw stars to this magnitude, -2 to 8.5; the light of fainter ones is part of the Milky Way. Default: 8.5.

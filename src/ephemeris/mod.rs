@@ -28,6 +28,8 @@
 //! # Ok::<(), skyprobe::Error>(())
 //! ```
 
+#[cfg(test)]
+mod almanac;
 mod bodies;
 mod body;
 mod celestial_frames;

@@ -1,5 +1,5 @@
 //! Visual magnitude of the Moon from the reflectance of its whole disc, measured by the Robotic Lunar Observatory
-//! (ROLO: Kieffer & Stone 2005, AJ 129, 2887, eq. 10 and table 4).
+//! (ROLO: Kieffer & Stone 2005, AJ 129, 2887).
 //!
 //! ln A = sum a_i g^i + sum b_j Phi^(2j-1) + c1 theta + c2 phi + c3 Phi theta + c4 Phi phi + d1 exp(-g/p1) + d2 exp(-g/p2) + d3 cos((g - p3)/p4)
 //!
@@ -9,7 +9,7 @@
 //! longitude of the observer [degrees]; d, r: distance of the Moon from observer and Sun. The mean of ln A at 549.1 and 553.8 nm stands for the V band.
 //!
 //! Waxing phases are 6 to 13 % brighter than waning ones. Measured from 1.55 to 97 degrees, about 1 % scatter. Below, the exponentials are continued;
-//! beyond 97 degrees, the curve goes on with the shape of 0.026 g + 4e-9 g^4 magnitudes (Allen 1976, Astrophysical Quantities, p. 144).
+//! beyond 97 degrees, the curve goes on with the shape of 0.026 g + 4e-9 g^4 magnitudes (Krisciunas & Schaefer 1991, PASP 103, 1033, after Allen 1976).
 
 use super::moon_orientation::SurfacePoint;
 
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn waxing_is_brighter_than_waning() {
-        // checked against: Kieffer & Stone 2005, sect. 5: the maria make waning phases darker; 7 to 15 % by the design's figures.
+        // checked against: Kieffer & Stone 2005: the maria make waning phases darker; 7 to 15 % by the design's figures.
         for phase in [45.0, 60.0, 75.0, 90.0] {
             let ratio = lux(phase, phase) / lux(phase, -phase);
             assert!((1.06..1.16).contains(&ratio), "{phase}: {ratio}");
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn near_the_older_formula_for_all_phases() {
-        // checked against: Allen 1976: V = -12.73 + 0.026 g + 4e-9 g^4, without opposition surge below 7 degrees.
+        // checked against: Krisciunas & Schaefer 1991, after Allen 1976: V = -12.73 + 0.026 g + 4e-9 g^4, without opposition surge below 7 degrees.
         for phase in [7.0, 20.0, 40.0, 60.0, 80.0, 96.0, 98.0, 120.0, 150.0] {
             let ours = 0.5 * (magnitude(phase, phase) + magnitude(phase, -phase));
             assert!((ours - (-12.73 + allen(phase))).abs() < 0.2, "{phase}: {ours}");

@@ -31,10 +31,15 @@ pub struct SolarEclipse {
 }
 
 impl SolarEclipse {
+    /// Whether all of the Sun is covered.
+    pub fn is_total(&self) -> bool {
+        self.separation_deg <= self.moon_radius_deg - self.sun_radius_deg
+    }
+
     /// What kind of eclipse it is here and now: "total", "annular" or "partial".
     pub fn kind(&self) -> &'static str {
-        match self.separation_deg <= (self.sun_radius_deg - self.moon_radius_deg).abs() {
-            true if self.moon_radius_deg >= self.sun_radius_deg => "total",
+        match self.separation_deg <= self.sun_radius_deg - self.moon_radius_deg {
+            _ if self.is_total() => "total",
             true => "annular",
             false => "partial",
         }

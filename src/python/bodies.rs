@@ -218,7 +218,7 @@ impl RiseAndSet {
 #[pyclass(frozen, module = "skyprobe")]
 pub struct SolarEclipse {
     pub geometry: ephemeris::SolarEclipse,
-    pub light: celestial::SolarEclipse,
+    pub light: celestial::EclipsedSunlight,
 }
 
 #[pymethods]

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 /// Parameters
 /// ----------
 /// when
-///     "auto": Moon and planets always, and while the Sun's centre is below the horizon moonlight in the air, stars and diffuse light too, which by
+///     "auto": Moon and planets always, and while the Sun's centre is below the horizon or the Sun totally eclipsed moonlight in the air, stars and diffuse light too, which by
 ///     day are less than a thousandth of the light. "always": all of them by day, too. "never": none.
 /// star_limit
 ///     Stars to this magnitude V are drawn one by one, -2 to 8.5; the light of fainter ones is part of the Milky Way.

@@ -109,13 +109,13 @@ impl Irradiance {
 
 #[pymethods]
 impl Irradiance {
-    /// Of the Sun's disc, on a plane that faces it. [W m-2 nm-1]
+    /// Of the Sun's disc, at a total eclipse of its corona, on a plane that faces it. [W m-2 nm-1]
     #[getter]
     fn direct_normal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.direct_normal.clone_ref(py)
     }
 
-    /// Of the Sun's disc, on the horizontal plane. [W m-2 nm-1]
+    /// Of the same, on the horizontal plane. [W m-2 nm-1]
     #[getter]
     fn direct_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.direct_horizontal.clone_ref(py)
@@ -136,13 +136,13 @@ pub struct Illuminance {
 
 #[pymethods]
 impl Illuminance {
-    /// Of the Sun's disc, on a plane that faces it. [lx]
+    /// Of the Sun's disc, at a total eclipse of its corona, on a plane that faces it. [lx]
     #[getter]
     fn direct_normal_lx(&self) -> f64 {
         self.inner.direct_normal_lx
     }
 
-    /// Of the Sun's disc, on the horizontal plane. [lx]
+    /// Of the same, on the horizontal plane. [lx]
     #[getter]
     fn direct_horizontal_lx(&self) -> f64 {
         self.inner.direct_horizontal_lx

@@ -219,8 +219,7 @@ impl Sky {
     /// How the Moon stands before the Sun; None if it does not.
     #[getter]
     fn solar_eclipse(&self) -> Option<SolarEclipse> {
-        let geometry = self.inner.bodies_of_place()?.solar_eclipse()?;
-        Some(SolarEclipse { geometry, light: *self.inner.solar_eclipse()? })
+        Some(SolarEclipse { geometry: self.inner.solar_eclipse()?, light: *self.inner.eclipsed_sunlight()? })
     }
 
     /// How the Moon stands in the Earth's shadow; None if no part of it does.
@@ -310,7 +309,7 @@ impl Sky {
         Ok(Illuminance { inner })
     }
 
-    /// Irradiance of the Sun's disc on a plane that faces it, in the units of a probe with this scale and colour space times sr.
+    /// Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr.
     #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", progress = None))]
     fn sun_irradiance_rgb(
         &self,

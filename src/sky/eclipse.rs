@@ -2,17 +2,17 @@
 //!
 //! The light field is solved for parallel sunlight that is the same everywhere; under the Moon's shadow it is not. The honest approximation: the sky is that of the whole Sun, dimmed at each wavelength by
 //! the uncovered, limb-darkened part of the disc as seen from the observer, and towards totality light that comes in from outside the umbra is left, more at the horizon
-//! ([`crate::celestial::solar_eclipse::remaining_sky_light`]). The ground is lit by what is left of Sun and sky:
+//! ([`crate::celestial::eclipsed_sunlight::remaining_sky_light`]). The ground is lit by what is left of Sun and sky:
 //! ```text
-//! share of the ground = (V E_sun + E_sky left) / (E_sun + E_sky),
+//! share of the ground = (E_sun left + E_sky left) / (E_sun + E_sky),
 //! ```
-//! horizontal irradiances without and with the eclipse; the air before it has the share of the sky as far above the horizontal.
+//! horizontal irradiances without and with the eclipse, the Sun's with the corona; the air before it has the share of the sky as far above the horizontal.
 
 use super::SkyLight;
 use super::disc::{Disc, Surface, SurfaceMap};
 use super::dome::SkyDome;
-use crate::celestial::{Corona, SolarEclipse, solar_eclipse::remaining_sky_light};
-use crate::ephemeris::Bodies;
+use crate::celestial::{Corona, EclipsedSunlight, eclipsed_sunlight::remaining_sky_light};
+use crate::ephemeris::{Bodies, SolarEclipse};
 use crate::error::Result;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
@@ -27,17 +27,18 @@ const COLOURS: [[(f64, f64); 2]; 3] = [[(600.0, 0.8), (450.0, 0.2)], [(550.0, 1.
 /// Uncovered part of the Sun's light below which the corona is drawn; with more, the sky outshines it.
 const CORONA_BELOW: f64 = 1e-3;
 
-/// How the Moon stands before the Sun, if it covers any of it.
-pub(super) fn eclipse(bodies: &Bodies) -> Result<Option<SolarEclipse>> {
-    let (sun, moon) = (&bodies.sun, &bodies.moon.body);
-    let radius = |diameter: f64| 0.5 * diameter;
-    let eclipse = SolarEclipse::new(
-        sun.direction(),
-        radius(sun.angular_diameter_deg),
-        moon.direction(),
-        radius(moon.angular_diameter_deg),
-    )?;
-    Ok(eclipse.is_eclipse().then_some(eclipse))
+/// The light of the Sun behind the Moon, if the Moon covers any of it.
+pub(super) fn eclipsed_sunlight(bodies: &Bodies) -> Result<Option<EclipsedSunlight>> {
+    let light = |eclipse: SolarEclipse| {
+        let (sun, moon) = (bodies.sun.direction(), bodies.moon.body.direction());
+        EclipsedSunlight::new(sun, eclipse.sun_radius_deg, moon, eclipse.moon_radius_deg)
+    };
+    bodies.solar_eclipse().map(light).transpose()
+}
+
+/// The corona, where it is not outshone by what is left of the Sun.
+pub(super) fn corona(eclipse: EclipsedSunlight) -> Option<Corona> {
+    (eclipse.visible_fraction(MIDDLE_NM) < CORONA_BELOW).then(|| Corona::new(eclipse))
 }
 
 /// Share of the sky's light that is left in the zenith when the part `uncovered` of the Sun's is.
@@ -63,17 +64,17 @@ pub(super) struct Gain {
 const ALTITUDES: usize = 32;
 
 impl Gain {
-    /// For the horizon at `horizon` [radians], the horizontal irradiance by the Sun and by the sky without an eclipse and by the sky under it, and the transmittance of the air
+    /// For the horizon at `horizon` [radians], the horizontal irradiance by the Sun without and under an eclipse and by the sky without and under it, and the transmittance of the air
     /// to the ground at an altitude [radians].
     pub fn new(
-        eclipse: &SolarEclipse,
+        eclipse: &EclipsedSunlight,
         horizon: f64,
-        (sun, sky, sky_left): (f64, f64, f64),
+        [(sun, sun_left), (sky, sky_left)]: [(f64, f64); 2],
         transmittance: impl Fn(f64) -> f64,
     ) -> Self {
         let uncovered = eclipse.visible_fraction(MIDDLE_NM);
         let whole = sun + sky;
-        let ground = if whole > 0.0 { (uncovered * sun + sky_left) / whole / sky_share(uncovered) } else { 1.0 };
+        let ground = if whole > 0.0 { (sun_left + sky_left) / whole / sky_share(uncovered) } else { 1.0 };
         let altitude = |i: usize| horizon - (FRAC_PI_2 + horizon) * (i as f64 / (ALTITUDES - 1) as f64).powi(2).max(1e-7);
         Self { uncovered, horizon, ground, transmittance: (0..ALTITUDES).map(|i| transmittance(altitude(i))).collect() }
     }
@@ -124,12 +125,12 @@ struct Axes {
 }
 
 impl Axes {
-    fn new(eclipse: &SolarEclipse, radius: f64) -> Self {
+    fn new(eclipse: &EclipsedSunlight, radius: f64) -> Self {
         let right = eclipse.sun_direction().cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
         Self { right, up: right.cross(eclipse.sun_direction()), radius }
     }
 
-    fn direction(&self, eclipse: &SolarEclipse, right: f64, up: f64) -> DVec3 {
+    fn direction(&self, eclipse: &EclipsedSunlight, right: f64, up: f64) -> DVec3 {
         let across = self.radius * (1.0 - 1e-9) * (right * self.right + up * self.up);
         (eclipse.sun_direction() * (1.0 - across.length_squared()).max(0.0).sqrt() + across).normalize()
     }
@@ -137,7 +138,7 @@ impl Axes {
 
 #[derive(Debug)]
 struct Crescent {
-    eclipse: SolarEclipse,
+    eclipse: EclipsedSunlight,
     axes: Axes,
 }
 
@@ -153,7 +154,7 @@ impl SurfaceMap for Crescent {
 
 #[derive(Debug)]
 struct CoronaMap {
-    eclipse: SolarEclipse,
+    eclipse: EclipsedSunlight,
     corona: Corona,
     axes: Axes,
 }
@@ -165,14 +166,13 @@ impl SurfaceMap for CoronaMap {
 }
 
 /// What is seen of the Sun whose whole disc would be `whole`, of which `covered` has the irradiance that is left: the crescent, and towards totality the corona.
-pub(super) fn discs(eclipse: SolarEclipse, whole: &Disc, left: [f64; 3]) -> Vec<Disc> {
+pub(super) fn discs(eclipse: EclipsedSunlight, whole: &Disc, left: [f64; 3]) -> Vec<Disc> {
     let mut discs = Vec::new();
     if left[1] > 0.0 {
         let axes = Axes::new(&eclipse, eclipse.sun_radius());
         discs.push(Disc { irradiance: left, surface: Surface::Mapped(Arc::new(Crescent { eclipse, axes })), ..whole.clone() });
     }
-    if eclipse.visible_fraction(MIDDLE_NM) < CORONA_BELOW {
-        let corona = Corona::new(eclipse);
+    if let Some(corona) = corona(eclipse) {
         let reach = corona.angular_radius();
         let axes = Axes::new(&eclipse, reach);
         let ratio = corona.irradiance_ratio();

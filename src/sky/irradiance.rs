@@ -10,9 +10,9 @@ use std::f64::consts::{PI, TAU};
 /// Spectral irradiance [W m-2 nm-1] by wavelength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Irradiance {
-    /// By the Sun's disc on a surface that faces it.
+    /// By the Sun's disc, at a total eclipse by its corona, on a surface that faces it.
     pub direct_normal: Vec<f64>,
-    /// By the Sun's disc on the horizontal plane.
+    /// By the same on the horizontal plane.
     pub direct_horizontal: Vec<f64>,
     /// By the sky on the horizontal plane.
     pub diffuse_horizontal: Vec<f64>,
@@ -21,9 +21,9 @@ pub struct Irradiance {
 /// Illuminance [lx].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illuminance {
-    /// By the Sun's disc on a surface that faces it.
+    /// By the Sun's disc, at a total eclipse by its corona, on a surface that faces it.
     pub direct_normal_lx: f64,
-    /// By the Sun's disc on the horizontal plane.
+    /// By the same on the horizontal plane.
     pub direct_horizontal_lx: f64,
     /// By the Moon's disc on a surface that faces it.
     pub moon_normal_lx: f64,

@@ -1,11 +1,11 @@
 //! The sky over a place at a time: what stands in it and what of sunlight reaches it. Its spectra and illuminance are asked for in `spectral`, its light is made ready for a picture in `pictured`.
 
 use super::atmosphere::Atmosphere;
-use super::eclipse::{self, eclipse};
+use super::eclipse::{self, eclipsed_sunlight};
 use super::night::{NightOptions, When, moon};
 use crate::atmosphere::molecules;
-use crate::celestial::{MoonDisc, SolarEclipse};
-use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SunModel, bodies, sun_at};
+use crate::celestial::{EclipsedSunlight, MoonDisc};
+use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SolarEclipse, SunModel, bodies, sun_at};
 use crate::error::{Result, check_range};
 use crate::light::{LightField, Observer};
 use crate::progress::Progress;
@@ -31,7 +31,7 @@ pub struct Sky {
     sun: Body,
     /// Everything in the sky of a place and a time.
     bodies: Option<Bodies>,
-    eclipse: Option<SolarEclipse>,
+    eclipse: Option<EclipsedSunlight>,
     /// Made when it is first needed.
     moon: OnceLock<MoonDisc>,
     night: NightOptions,
@@ -49,7 +49,7 @@ impl Sky {
         // The thesis's Moon has no parallax: it goes with the thesis's Sun only.
         let moon_model = if sun_model == SunModel::Thesis { MoonModel::Thesis } else { MoonModel::Elp };
         let bodies = bodies(&place, &time, sun_model, moon_model, &refraction);
-        let eclipse = eclipse(&bodies)?;
+        let eclipse = eclipsed_sunlight(&bodies)?;
         Ok(Self {
             elevation_m: place.elevation_m,
             place: Some(place),
@@ -131,7 +131,12 @@ impl Sky {
     }
 
     /// How the Moon stands before the Sun, if it does.
-    pub fn solar_eclipse(&self) -> Option<&SolarEclipse> {
+    pub fn solar_eclipse(&self) -> Option<SolarEclipse> {
+        self.bodies.as_ref().and_then(Bodies::solar_eclipse)
+    }
+
+    /// What the Moon leaves of the Sun's light, if it stands before the Sun.
+    pub fn eclipsed_sunlight(&self) -> Option<&EclipsedSunlight> {
         self.eclipse.as_ref()
     }
 
@@ -140,13 +145,13 @@ impl Sky {
         &self.atmosphere
     }
 
-    /// Irradiance by the Sun's disc through the air on a surface that faces it, as RGB in `color_space`, in the units of a probe's pixels times steradians:
-    /// a lamp of this strength lights a scene as the disc in the probe does.
+    /// Irradiance by the Sun's disc (at a total eclipse by its corona) through the air on a surface that faces it, as RGB in `color_space`, in the units of a probe's pixels times
+    /// steradians: a lamp of this strength lights a scene as the disc in the probe does.
     ///
     /// # Errors
     /// As [`Self::illuminance`].
     pub fn sun_irradiance_rgb(&self, scale: Scale, color_space: ColorSpace, progress: &Progress) -> Result<[f64; 3]> {
-        let xyz = self.sun_irradiance_xyz(self.field(progress)?)?;
+        let xyz = sum_of_products(&self.direct_transmittance(self.field(progress)?), &self.xyz_weights()?);
         Ok(color_space.from_xyz(xyz.map(|v| v * scale.factor())))
     }
 
@@ -240,10 +245,26 @@ impl Sky {
         self.atmosphere.solar_irradiance(wavelengths_nm).into_iter().map(|e| e * self.nearness()).collect()
     }
 
-    /// Transmittance to the disc where it is seen.
+    /// Transmittance to the disc where it is seen, times the part that the Moon does not cover.
     fn disc_transmittance(&self, field: &LightField) -> Vec<f64> {
         let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
         transmittance.iter().zip(self.uncovered()).map(|(transmittance, uncovered)| transmittance * uncovered).collect()
+    }
+
+    /// The same with the corona, where there is one to be seen.
+    fn direct_transmittance(&self, field: &LightField) -> Vec<f64> {
+        let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
+        let corona = self.corona_share();
+        transmittance
+            .iter()
+            .zip(self.uncovered())
+            .map(|(transmittance, uncovered)| transmittance * (uncovered + corona))
+            .collect()
+    }
+
+    /// Light of the corona over that of the whole Sun; 0 where the Sun outshines it.
+    fn corona_share(&self) -> f64 {
+        self.eclipse.and_then(eclipse::corona).map_or(0.0, |corona| corona.irradiance_ratio())
     }
 
     /// Cosine of incidence of the disc on the horizontal plane.

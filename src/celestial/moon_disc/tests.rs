@@ -45,7 +45,7 @@ fn the_pixels_add_up_to_the_published_irradiance() {
 
 #[test]
 fn librations_change_the_whole_moon_as_the_published_terms_say() {
-    // checked against: Kieffer & Stone 2005, tables 4 and 5: change of ln A per degree of libration, Sun and observer turning
+    // checked against: Kieffer & Stone 2005, the model's coefficients: change of ln A per degree of libration, Sun and observer turning
     // together, against the map's own mean brightness. It tells longitude from latitude, and the sense of both.
     let turned = |phase_deg: f64, longitude: f64, latitude: f64| {
         let mut view = MoonView::schematic(phase_deg);

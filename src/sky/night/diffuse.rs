@@ -8,7 +8,7 @@
 //! with T the transmittance of the ray (forward peaks count as transmitted), w the vertical single scattering albedo of the air, A the albedo of the ground, T_d the transmittance to
 //! diffuse light and pi E F the irradiance of the ground: what is scattered into the ray comes from a sky of mean brightness above and a lit ground below, and is scattered once and alike into
 //! all directions; R is what the air sends back.
-//! That keeps most of the light that extinction alone would lose, as in Leinert et al. (1998, section 7: diffuse light is dimmed by about three quarters of the optical depth that dims a star).
+//! That keeps most of the light that extinction alone would lose, as Leinert et al. (1998) have it: diffuse light is dimmed by less than a star, here by about three quarters of the optical depth.
 //! Of even light conservative air of optical depth 0.1, 0.2, 0.5 lets through 0.916, 0.852, 0.722, where the exact values are 0.916, 0.849, 0.704.
 
 use super::super::SkyLight;

@@ -12,6 +12,7 @@ pub(super) use moon::{moon, moonlight_weights};
 pub use options::{NightOptions, When};
 
 use super::Sky;
+use super::eclipse;
 use super::layers::{Layer, LayerScales, Layers, Part};
 use super::model::Model;
 use crate::celestial::{Airglow, MilkyWay, ZodiacalLight};
@@ -21,14 +22,14 @@ use crate::light::LightField;
 use crate::progress::Progress;
 use diffuse::{DiffuseAir, DiffuseSky};
 
-/// Altitude of the Sun below which `When::Auto` shows the night [degrees].
+/// Altitude of the Sun below which `When::Auto` shows the night, as it does while the Sun is totally eclipsed [degrees].
 const SUNSET_DEG: f64 = 0.0;
 
 impl Sky {
     /// Whether `options` ask for moonlight, stars and diffuse light in this sky.
     pub(super) fn is_night(&self, options: &NightOptions) -> bool {
         match options.when {
-            When::Auto => self.sun().altitude_deg < SUNSET_DEG,
+            When::Auto => self.sun().altitude_deg < SUNSET_DEG || self.solar_eclipse().is_some_and(|eclipse| eclipse.is_total()),
             When::Always => true,
             When::Never => false,
         }
@@ -102,7 +103,9 @@ impl Sky {
         }
         if wanted(Layer::Zodiacal) {
             let sun = (to_icrs * bodies.sun.direction()).normalize();
-            let light = DiffuseSky::above(ZodiacalLight::new(sun), to_icrs, &air);
+            // The corona has the light of the dust near the Sun.
+            let inner = self.eclipsed_sunlight().copied().and_then(eclipse::corona).map_or(0.0, |corona| corona.angular_radius());
+            let light = DiffuseSky::above(ZodiacalLight::new(sun).beyond(inner), to_icrs, &air);
             layers.add(Layer::Zodiacal, scales.of(Layer::Zodiacal), smooth(Box::new(light)));
         }
         if wanted(Layer::Airglow) {

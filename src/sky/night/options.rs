@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum When {
-    /// Moon and planets always; moonlight in the air, stars and diffuse light with the Sun below the horizon, where they are more than a thousandth of the light.
+    /// Moon and planets always; moonlight in the air, stars and diffuse light with the Sun below the horizon or totally eclipsed, where they are more than a thousandth of the light.
     #[default]
     Auto,
     /// All of them always.

@@ -111,12 +111,13 @@ impl Sky {
         let off_middle = |wavelength: f64| (wavelength - eclipse::MIDDLE_NM).abs();
         let nodes = self.atmosphere.profile().wavelengths_nm.iter().enumerate();
         let middle = nodes.min_by(|a, b| off_middle(*a.1).total_cmp(&off_middle(*b.1))).map_or(0, |(node, _)| node);
-        let share = eclipse::sky_share(eclipse.visible_fraction(eclipse::MIDDLE_NM));
+        let uncovered = eclipse.visible_fraction(eclipse::MIDDLE_NM);
         let sky = diffuse_horizontal(field, &self.observer(), |_| 1.0, progress)?[middle];
-        let sky_left = self.diffuse_horizontal(field, progress)?[middle] * share;
+        let sky_left = self.diffuse_horizontal(field, progress)?[middle] * eclipse::sky_share(uncovered);
         let sun = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians())[middle] * self.disc_cosine();
+        let sun_left = sun * (uncovered + self.corona_share());
         let to_ground = |altitude: f64| field.ray_transmittance(self.altitude_km(), altitude.sin())[middle];
-        Ok(Some(Gain::new(eclipse, self.horizon(), (sun, sky, sky_left), to_ground)))
+        Ok(Some(Gain::new(eclipse, self.horizon(), [(sun, sun_left), (sky, sky_left)], to_ground)))
     }
 
     fn sun_discs(&self, field: &LightField, horizon: f64) -> Result<Vec<Disc>> {

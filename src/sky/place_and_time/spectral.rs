@@ -96,7 +96,7 @@ impl Sky {
             .collect()
     }
 
-    /// Spectral irradiance by the Sun and by the sky at `wavelengths_nm`.
+    /// Spectral irradiance by the Sun (at a total eclipse by its corona) and by the sky at `wavelengths_nm`.
     ///
     /// # Errors
     /// [`Error::Input`] for wavelengths that were not solved; [`Error::Cancelled`].
@@ -104,7 +104,7 @@ impl Sky {
         self.atmosphere.check_wavelengths(wavelengths_nm)?;
         let field = self.field(progress)?;
         let sunlight = self.sunlight(wavelengths_nm);
-        let transmittance = self.disc_transmittance(field);
+        let transmittance = self.direct_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
         let diffuse = self.diffuse_horizontal(field, progress)?;
         let in_the_air = self.sunlight_in_the_air(wavelengths_nm);
@@ -115,7 +115,7 @@ impl Sky {
         })
     }
 
-    /// Illuminance by the Sun, by the Moon and by the sky with all that shines in it.
+    /// Illuminance by the Sun (at a total eclipse by its corona), by the Moon and by the sky with all that shines in it.
     ///
     /// # Errors
     /// [`Error::Input`] if the wavelengths of the air make no colour; [`Error::Cancelled`].
@@ -125,7 +125,7 @@ impl Sky {
         let luminous = |values: &[f64], weights: &[[f64; 3]]| {
             LUMINOUS_EFFICACY * values.iter().zip(weights).map(|(v, w)| v * w[1]).sum::<f64>()
         };
-        let direct_normal_lx = luminous(&self.disc_transmittance(field), &weights);
+        let direct_normal_lx = luminous(&self.direct_transmittance(field), &weights);
         let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
         let by_sunlight = luminous(&self.diffuse_horizontal(field, progress)?, &sky_weights);
         let night = self.night_light(field, &LightOptions::default(), progress)?;

@@ -4,8 +4,8 @@ use crate::spectrum::{observer, solar};
 const MOON_KM: f64 = 384_400.0;
 const SUN_KM: f64 = 1.496e8;
 
-fn shadow(limb: &EarthLimb) -> EarthShadow {
-    EarthShadow::new(limb, MOON_KM, SUN_KM).unwrap()
+fn shadow(limb: &EarthLimb) -> ShadowedSunlight {
+    ShadowedSunlight::new(limb, MOON_KM, SUN_KM).unwrap()
 }
 
 fn minutes(minutes: f64) -> f64 {
@@ -13,13 +13,13 @@ fn minutes(minutes: f64) -> f64 {
 }
 
 /// Mean transmission with a weight by wavelength.
-fn mean(shadow: &EarthShadow, angle: f64, weight: impl Fn(f64) -> f64) -> f64 {
+fn mean(shadow: &ShadowedSunlight, angle: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let wavelengths = || (0..WAVELENGTHS).map(|i| WAVELENGTHS_NM.0 + i as f64 * WAVELENGTHS_NM.2);
     wavelengths().map(|w| weight(w) * shadow.transmission(angle, w)).sum::<f64>() / wavelengths().map(weight).sum::<f64>()
 }
 
 /// Transmission of the Sun's light as the eye sees it.
-fn visual(shadow: &EarthShadow, angle: f64) -> f64 {
+fn visual(shadow: &ShadowedSunlight, angle: f64) -> f64 {
     mean(shadow, angle, |w| solar::irradiance(w, 10.0) * observer::matching_functions(w)[1])
 }
 
@@ -100,7 +100,7 @@ fn the_umbra_is_red_within_and_turquoise_at_its_edge() {
     let at = |arcminutes: f64, wavelength: f64| shadow.transmission(minutes(arcminutes), wavelength);
     assert!(at(0.0, 680.0) > 20.0 * at(0.0, 550.0) && at(0.0, 550.0) > 20.0 * at(0.0, 440.0));
     assert!(at(40.0, 440.0) > 1.15 * at(40.0, 600.0) && at(40.0, 500.0) > 1.15 * at(40.0, 600.0));
-    let colorless = EarthShadow::new(&EarthLimb { ozone_du: 0.0, ..EarthLimb::default() }, MOON_KM, SUN_KM).unwrap();
+    let colorless = ShadowedSunlight::new(&EarthLimb { ozone_du: 0.0, ..EarthLimb::default() }, MOON_KM, SUN_KM).unwrap();
     assert!(colorless.transmission(minutes(40.0), 440.0) < colorless.transmission(minutes(40.0), 600.0));
     let mut last = 0.0;
     for step in 0..=300 {
@@ -131,7 +131,8 @@ fn the_table_is_fine_enough() {
 
 #[test]
 fn bad_limbs_are_named() {
-    let error = EarthShadow::new(&EarthLimb { ozone_du: -1.0, ..EarthLimb::default() }, MOON_KM, SUN_KM).unwrap_err().to_string();
+    let error =
+        ShadowedSunlight::new(&EarthLimb { ozone_du: -1.0, ..EarthLimb::default() }, MOON_KM, SUN_KM).unwrap_err().to_string();
     assert!(error.starts_with("ozone_du = -1"), "{error}");
-    assert!(EarthShadow::new(&EarthLimb::default(), f64::NAN, SUN_KM).is_err());
+    assert!(ShadowedSunlight::new(&EarthLimb::default(), f64::NAN, SUN_KM).is_err());
 }

@@ -15,9 +15,10 @@
 //! it is not: the shadow is 100 to 250 km wide, the lit air beyond it shines from all around the horizon. [`remaining_sky_light`] is
 //! the approximation: until shortly before totality the sky is the normal one times V (good to 99.8 % obscuration by measurement:
 //! Sharp, Silverman & Lloyd, Applied Optics 10, 1207, 1971); at totality a remainder is left that was scattered into the umbra: the
-//! zenith has 1e-4 of its normal radiance (Shaw, Applied Optics 14, 388, 1975; Emde & Mayer, Atmospheric Chemistry and Physics 7,
-//! 2259, 2007), the sky nearly symmetric around the zenith and brighter towards the horizon, in all some 3e-4 of the diffuse light (3
-//! of 10 000 lx, as measured at many eclipses: Mollmann & Vollmer, European Journal of Physics 27, 1299, 2006).
+//! zenith has 1e-4 of its normal radiance, the sky nearly symmetric around the zenith and darkest there (Shaw, Applied Optics 14, 388,
+//! 1975); radiance and irradiance fall by three to four orders of magnitude, and the corona adds little (Emde & Mayer, Atmospheric
+//! Chemistry and Physics 7, 2259, 2007). In all some 3e-4 of the diffuse light is left, a few lux as eclipse watchers measure it
+//! (Mollmann & Vollmer, European Journal of Physics 27, 1299, 2006).
 
 use super::limb_darkening::{DISC_MEAN_OF_POWERS, coefficients, mean_intensity, relative_intensity};
 use super::{angle, check_unit_vector};
@@ -32,16 +33,17 @@ pub const ZENITH_REMAINDER: f64 = 1e-4;
 /// The same at the horizon: ten times (chosen, so that the diffuse irradiance keeps 3e-4).
 pub const HORIZON_REMAINDER: f64 = 1e-3;
 
-/// Sun and Moon as they stand in the sky.
+/// The light of the Sun behind the Moon: how much of it is left, of which colour, and from which part of the disc. Magnitude, kind and position angles of the
+/// eclipse are geometry: [`crate::ephemeris::SolarEclipse`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolarEclipse {
+pub struct EclipsedSunlight {
     sun_direction: DVec3,
     moon_direction: DVec3,
     sun_radius: f64,
     moon_radius: f64,
 }
 
-impl SolarEclipse {
+impl EclipsedSunlight {
     /// From unit vectors to the centres (in any one frame) and the angular radii [degrees], 0.05 to 5.
     pub fn new(sun_direction: DVec3, sun_radius_deg: f64, moon_direction: DVec3, moon_radius_deg: f64) -> Result<Self> {
         check_range("sun_radius_deg", sun_radius_deg, 0.05, 5.0, "degrees")?;
@@ -79,38 +81,6 @@ impl SolarEclipse {
     /// Angle between the centres [radians].
     pub fn separation(&self) -> f64 {
         angle(self.sun_direction, self.moon_direction)
-    }
-
-    /// Position angle of the Moon's centre from the Sun's, from the direction of `up` (such as the zenith or the celestial pole)
-    /// counterclockwise as seen from within the sphere, -pi to pi [radians].
-    pub fn position_angle(&self, up: DVec3) -> f64 {
-        let left = up.cross(self.sun_direction);
-        let above = self.sun_direction.cross(left);
-        self.moon_direction.dot(left).atan2(self.moon_direction.dot(above))
-    }
-
-    /// Whether any of the Sun is covered.
-    pub fn is_eclipse(&self) -> bool {
-        self.separation() < self.sun_radius + self.moon_radius
-    }
-
-    /// Whether all of the Sun is covered.
-    pub fn is_total(&self) -> bool {
-        self.separation() <= self.moon_radius - self.sun_radius
-    }
-
-    /// Magnitude: covered part of the Sun's diameter; for a total or annular eclipse the ratio of the diameters. 0 without eclipse.
-    pub fn magnitude(&self) -> f64 {
-        let separation = self.separation();
-        if separation <= (self.moon_radius - self.sun_radius).abs() {
-            return self.moon_radius / self.sun_radius;
-        }
-        ((self.sun_radius + self.moon_radius - separation) / (2.0 * self.sun_radius)).max(0.0)
-    }
-
-    /// Covered part of the disc's area, 0 to 1.
-    pub fn obscuration(&self) -> f64 {
-        1.0 - (self.moments()[0] / PI).clamp(0.0, 1.0)
     }
 
     /// Part of the Sun's light at `wavelength_nm` that is not covered, 0 to 1.
@@ -182,7 +152,7 @@ pub(super) fn free_half_arc(r: f64, moon: f64, separation: f64) -> f64 {
 }
 
 /// Sky light left over the normal sky's, in the direction of `altitude` above the horizon [radians], when the part `visible` of the
-/// Sun's light (0 to 1, [`SolarEclipse::visible_fraction`]) is seen. See the module's remark on the sky under the umbra.
+/// Sun's light (0 to 1, [`EclipsedSunlight::visible_fraction`]) is seen. See the module's remark on the sky under the umbra.
 pub fn remaining_sky_light(visible: f64, altitude: f64) -> f64 {
     let horizon = (1.0 - altitude.sin().clamp(0.0, 1.0)).powi(3);
     let remainder = ZENITH_REMAINDER + (HORIZON_REMAINDER - ZENITH_REMAINDER) * horizon;
@@ -194,10 +164,10 @@ pub fn remaining_sky_light(visible: f64, altitude: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn eclipse(moon_over_sun: f64, separation_over_sun: f64) -> SolarEclipse {
+    fn eclipse(moon_over_sun: f64, separation_over_sun: f64) -> EclipsedSunlight {
         let radius: f64 = 0.2666;
         let away = (radius * separation_over_sun).to_radians();
-        SolarEclipse::new(DVec3::Y, radius, DVec3::new(0.0, away.cos(), away.sin()), radius * moon_over_sun).unwrap()
+        EclipsedSunlight::new(DVec3::Y, radius, DVec3::new(0.0, away.cos(), away.sin()), radius * moon_over_sun).unwrap()
     }
 
     /// Area of two circles' overlap in closed form.
@@ -208,14 +178,15 @@ mod tests {
 
     #[test]
     fn the_area_is_that_of_two_circles() {
+        let covered = |moon: f64, separation: f64| 1.0 - eclipse(moon, separation).moments()[0] / PI;
         for (moon, separation) in [(1.0, 1.0), (1.03, 0.5), (1.03, 0.031), (0.95, 0.2), (0.95, 0.0501), (1.05, 2.0), (0.5, 0.9)] {
-            let ours = eclipse(moon, separation).obscuration();
+            let ours = covered(moon, separation);
             let exact = lens(1.0, moon, separation) / PI;
             assert!((ours - exact).abs() < 1e-7, "{moon} {separation}: {ours} {exact}");
         }
-        assert!((eclipse(0.9, 0.0).obscuration() - 0.81).abs() < 1e-9);
-        assert_eq!(eclipse(1.03, 0.01).obscuration(), 1.0);
-        assert!(eclipse(1.0, 2.0 + 1e-9).obscuration() < 1e-9);
+        assert!((covered(0.9, 0.0) - 0.81).abs() < 1e-9);
+        assert_eq!(covered(1.03, 0.01), 1.0);
+        assert!(covered(1.0, 2.0 + 1e-9) < 1e-9);
     }
 
     #[test]
@@ -225,7 +196,6 @@ mod tests {
         let free = 1.0 - lens(1.0, 1.03, 0.031) / PI;
         let [blue, red] = [420.0, 680.0].map(|wavelength| eclipse.visible_fraction(wavelength));
         assert!(blue < red && red < 0.6 * free && blue > 0.1 * free, "{blue} {red} {free}");
-        assert!(!eclipse.is_total() && eclipse.magnitude() > 0.99);
     }
 
     #[test]
@@ -246,16 +216,6 @@ mod tests {
     }
 
     #[test]
-    fn position_angles_go_counterclockwise_from_up() {
-        let radius = 0.26;
-        let at = |offset: DVec3| SolarEclipse::new(DVec3::Y, radius, (DVec3::Y + 0.004 * offset).normalize(), radius).unwrap();
-        // Looking north with z up, east (+x) is to the right, so west is to the left: counterclockwise from up.
-        assert!(at(DVec3::Z).position_angle(DVec3::Z).abs() < 1e-12);
-        assert!((at(DVec3::NEG_X).position_angle(DVec3::Z) - 0.5 * PI).abs() < 1e-9);
-        assert!((at(DVec3::X).position_angle(DVec3::Z) + 0.5 * PI).abs() < 1e-9);
-    }
-
-    #[test]
     fn the_sky_keeps_a_ten_thousandth() {
         assert_eq!(remaining_sky_light(1.0, 0.3), 1.0);
         assert_eq!(remaining_sky_light(0.0, 0.5 * PI), ZENITH_REMAINDER);
@@ -267,8 +227,8 @@ mod tests {
 
     #[test]
     fn bad_input_is_named() {
-        let error = SolarEclipse::new(DVec3::ZERO, 0.26, DVec3::X, 0.26).unwrap_err().to_string();
+        let error = EclipsedSunlight::new(DVec3::ZERO, 0.26, DVec3::X, 0.26).unwrap_err().to_string();
         assert!(error.starts_with("sun_direction"), "{error}");
-        assert!(SolarEclipse::new(DVec3::X, f64::NAN, DVec3::X, 0.26).is_err());
+        assert!(EclipsedSunlight::new(DVec3::X, f64::NAN, DVec3::X, 0.26).is_err());
     }
 }

@@ -80,16 +80,16 @@ impl EarthLimb {
 }
 
 /// Transmission of sunlight into the shadow, tabulated against sigma, the angle between the centres of Sun and Earth seen from a point
-/// behind the Earth.
+/// behind the Earth. Magnitudes of a lunar eclipse are geometry: [`crate::ephemeris::EarthShadow`].
 #[derive(Clone, Debug)]
-pub struct EarthShadow {
+pub struct ShadowedSunlight {
     /// [radians], ascending.
     angles: Vec<f64>,
     transmission: Vec<[f64; WAVELENGTHS]>,
     umbra: f64,
 }
 
-impl EarthShadow {
+impl ShadowedSunlight {
     /// The shadow at `distance_km` from the Earth's centre (20 000 to 1 000 000), the Sun at `sun_distance_km` (0.5 to 2 au) from it.
     pub fn new(limb: &EarthLimb, distance_km: f64, sun_distance_km: f64) -> Result<Self> {
         limb.validate()?;
