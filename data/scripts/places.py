@@ -96,8 +96,9 @@ def features() -> dict[str, tuple[str, int | None]]:
     found = {}
     for line in file.read_text(encoding="utf-8").splitlines():
         fields = line.split("\t")
-        # Surveyed, else of the elevation model at the place.
+        # Surveyed, else of the elevation model at the place, else of a coast that the model takes for the sea.
         elevations = [int(text) for text in (fields[15], fields[16]) if text and -450 < int(text) < 6000]
+        elevations += [0] if fields[16] == "-9999" else []
         found[fields[0]] = (fields[7], elevations[0] if elevations else None)
     return found
 

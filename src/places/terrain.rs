@@ -52,7 +52,9 @@ impl Terrain {
 pub fn elevation_m(latitude_deg: f64, longitude_deg: f64) -> Result<f64> {
     check_range("latitude", latitude_deg, -90.0, 90.0, "degrees")?;
     check_range("longitude", longitude_deg, -180.0, 180.0, "degrees")?;
-    Ok(TERRAIN.elevation_m(latitude_deg, longitude_deg))
+    let height_m = TERRAIN.elevation_m(latitude_deg, longitude_deg);
+    // Within a step of the map below the sea, flat coasts are meant.
+    Ok(if height_m < 0.0 { (height_m + STEP_M).min(0.0) } else { height_m })
 }
 
 #[cfg(test)]
@@ -95,6 +97,15 @@ mod tests {
         assert!((30.0..40.0).contains(&half), "{half}");
         assert!((200.0..240.0).contains(&tenth), "{tenth}");
         assert!((600.0..710.0).contains(&hundredth), "{hundredth}");
+    }
+
+    #[test]
+    fn a_flat_coast_is_not_below_the_sea_but_the_dead_sea_is() {
+        // Sydney, and the middle of the Netherlands.
+        for (latitude, longitude) in [(-33.87, 151.21), (52.4, 5.0)] {
+            assert!((0.0..60.0).contains(&elevation_m(latitude, longitude).unwrap()));
+        }
+        assert!(elevation_m(31.5, 35.48).unwrap() < -100.0);
     }
 
     #[test]
