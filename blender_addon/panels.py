@@ -49,13 +49,16 @@ def _draw_run(layout, scene, settings):
     row.prop(settings, "live", text="", icon="HIDE_OFF" if settings.live else "HIDE_ON", toggle=True)
     row.operator(operators.SKYPROBE_OT_remove.bl_idname, text="", icon="X")
     if settings.shown == "PREVIEW":
-        layout.label(text="Preview: render the probe for final pictures", icon="INFO")
+        layout.label(text="Preview; render for final pictures", icon="INFO")
     elif not operators.is_current(scene):
         layout.label(text="The settings have changed since this probe", icon="INFO")
 
 
 def _draw_place(layout, scene, settings):
     layout.prop(settings, "place", icon="VIEWZOOM", text="")
+    row = layout.row()
+    row.alignment = "RIGHT"
+    row.label(text=readout.place(settings))
     column = layout.column(align=True)
     column.prop(settings, "latitude")
     column.prop(settings, "longitude")
@@ -77,9 +80,9 @@ def _draw_time(layout, scene, settings):
         layout.prop(settings, "zone_name")
     elif settings.zone_mode == "OFFSET":
         layout.prop(settings, "utc_offset")
-    text = readout.zone(settings)
-    if text:
-        row = layout.row()
+    column = layout.column(align=True)
+    for text in readout.zone(settings):
+        row = column.row()
         row.alignment = "RIGHT"
         row.label(text=text)
 

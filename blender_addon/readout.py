@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel tells of the sky, as text."""
 
+import math
 import textwrap
+
+from skyprobe import places
 
 from . import exposure, jobs, values
 
-DEGREE = "\N{DEGREE SIGN}"
+DEGREE, DASH = "\N{DEGREE SIGN}", "\N{EN DASH}"
 # Letters of a line that a narrow panel has room for.
 LINE = 48
 POINTS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
@@ -17,16 +20,17 @@ def lines(shown, settings):
     result, day = shown.result, shown.day
     if result is not None:
         found.append(("LIGHT_SUN", f"Sun {where(result.sun)}"))
-        if result.moon is not None:
-            found.append(("LIGHT_HEMI", f"Moon {where(result.moon)}, {result.moon_fraction:.0%} lit"))
     if day is not None:
         sun = day.sun
-        found.append(("TRIA_UP", f"Sunrise {clock(sun.sunrise)}, sunset {clock(sun.sunset)}"))
-        found.append(("DOT", f"Dawn {clock(sun.civil_dawn)}, dusk {clock(sun.civil_dusk)}, noon {clock(sun.solar_noon)}"))
-        found.append(("DOT", f"Moonrise {clock(day.moon_rise)}, moonset {clock(day.moon_set)}"))
+        found.append(("BLANK1", f"up {clock(sun.sunrise)} {DASH} {clock(sun.sunset)}, noon {clock(sun.solar_noon)}"))
+        found.append(("BLANK1", f"twilight {clock(sun.civil_dawn)} {DASH} {clock(sun.civil_dusk)}"))
+    if result is not None and result.moon is not None:
+        found.append(("LIGHT_HEMI", f"Moon {where(result.moon)}"))
+        up = "" if day is None else f", rises {clock(day.moon_rise)}, sets {clock(day.moon_set)}"
+        found.append(("BLANK1", f"{result.moon_fraction:.0%} lit{up}"))
     if result is not None:
         lux = result.horizontal_lx
-        found.append(("OUTLINER_OB_LIGHT", f"{amount(lux)} lx on the ground (EV {exposure.exposure_value(lux):+.1f})"))
+        found.append(("OUTLINER_OB_LIGHT", f"{amount(lux)} lx, EV {exposure.exposure_value(lux):+.1f}"))
     return found
 
 
@@ -38,7 +42,7 @@ def where(lamp):
 
 def clock(moment):
     """Return the time of day of a datetime, a dash for None."""
-    return f"{moment:%H:%M}" if moment is not None else "\N{EN DASH}"
+    return f"{moment:%H:%M}" if moment is not None else DASH
 
 
 def amount(value):
@@ -48,18 +52,27 @@ def amount(value):
     return f"{value:.3g}"
 
 
+def place(settings):
+    """Return what place the coordinates are at, such as 12 km N of Lund."""
+    return places.nearest(math.degrees(settings.latitude), math.degrees(settings.longitude)).label
+
+
 def zone(settings):
-    """Return how the clock at the place stands to universal time, or an empty text if the settings make no sense."""
+    """Return the lines that say how the clock at the place stands to universal time; none if the settings make no sense."""
     try:
-        return _zone(values.civil_time(settings))
+        civil = values.civil_time(settings)
     except jobs.USER_ERRORS:
-        return ""
-
-
-def _zone(civil):
-    minutes = round(civil.time.utcoffset().total_seconds() / 60.0)
+        return []
+    minutes = round(60.0 * civil.utc_offset_h)
     offset = f"UTC{'-' if minutes < 0 else '+'}{abs(minutes) // 60:02d}:{abs(minutes) % 60:02d}"
-    return ", ".join(filter(None, (civil.zone, offset, "daylight saving" if civil.is_daylight_saving else "")))
+    found = [", ".join(filter(None, (civil.zone, offset)))]
+    if civil.daylight_saving:
+        found.append(f"Daylight saving time ({civil.abbreviation})")
+    if civil.occurrence == "repeated":
+        found.append("Clocks are set back: this hour comes twice, the first is taken")
+    elif civil.occurrence == "skipped":
+        found.append("Clocks are set forward: this hour is left out")
+    return found
 
 
 def wrapped(message):

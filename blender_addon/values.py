@@ -4,6 +4,7 @@
 import datetime
 import math
 import os
+from dataclasses import replace
 
 import bpy
 from skyprobe import places
@@ -18,6 +19,8 @@ OPTIONAL_AIR = (
 )
 # The preview's air is solved as coarsely as the library offers.
 PREVIEW_QUALITY = "draft"
+# What the eye sees at best [magnitude].
+PREVIEW_STAR_LIMIT = 6.5
 
 
 def air(settings, quality=None):
@@ -174,7 +177,9 @@ def _where(settings):
 def preview_request(scene):
     """Return the jobs.SkyRequest of the live preview of `scene`; ValueError for settings that make no sense."""
     settings = scene.skyprobe
-    return sky_request(settings, PREVIEW_QUALITY, settings.preview_width)
+    wanted = sky_request(settings, PREVIEW_QUALITY, settings.preview_width)
+    # The light of fainter stars goes into the Milky Way: as much light, sooner.
+    return replace(wanted, night={**wanted.night, "star_limit": min(wanted.night["star_limit"], PREVIEW_STAR_LIMIT)})
 
 
 def final_request(scene):

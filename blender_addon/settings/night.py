@@ -13,7 +13,7 @@ class Night:
         name="Show",
         description="When Moon, planets, stars and the other lights of the night are in the sky",
         items=(
-            ("auto", "As It Gets Dark", "Moon and planets always; moonlight, stars and diffuse light while the Sun is below the horizon"),
+            ("auto", "As It Gets Dark", "Moon and planets always; moonlight, stars and diffuse light while the Sun is below the horizon or totally eclipsed"),
             ("always", "Always", "All of them by day too, where they are less than a thousandth of the light"),
             ("never", "Never", "The light of the Sun only"),
         ),

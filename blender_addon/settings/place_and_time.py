@@ -28,27 +28,14 @@ def _place_chosen(settings, context):
         return
     scene = settings.id_data
     try:
-        found = find_place(text)
+        found = places.locate(text)
     except ValueError as error:
         live.complain(scene, str(error))
         return
-    settings.latitude, settings.longitude = math.radians(found[0]), math.radians(found[1])
-    settings.elevation_m = found[2]
+    with live.held(scene):
+        settings.latitude, settings.longitude = math.radians(found.latitude), math.radians(found.longitude)
+        settings.elevation_m = found.elevation_m
     live.complain(scene, "")
-
-
-def find_place(text):
-    """Return latitude, longitude [degrees] and elevation [m] of what `text` names; ValueError if it names nothing."""
-    try:
-        latitude, longitude = places.parse_coordinates(text)
-    except ValueError:
-        if not any(letter.isalpha() for letter in text):
-            raise
-        found = places.search(text, limit=1)
-        if not found:
-            raise ValueError(f"place = {text}: must be a name of the list, or coordinates such as 55.71, 13.19") from None
-        return found[0].latitude, found[0].longitude, max(found[0].elevation_m or 0.0, 0.0)
-    return latitude, longitude, max(places.elevation_m(latitude, longitude), 0.0)
 
 
 def _day_of_year(settings):
