@@ -33,6 +33,10 @@ const ABBREVIATIONS: [(&str, &str); 5] = [("st", "saint"), ("ste", "sainte"), ("
 /// Letters that are written for one with an accent.
 const DIGRAPHS: [(&str, &str); 4] = [("oe", "o"), ("ae", "a"), ("ue", "u"), ("aa", "a")];
 
+/// Great cities have many other names, which would come before every main name while one types: their beginnings count as if the city had a twentieth of
+/// its inhabitants, in codes of the gazetteer: 22 ln 20.
+const OTHER_NAME_CODES: u8 = 66;
+
 /// How exactly a name is met: smaller is better.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Exactness {
@@ -70,7 +74,9 @@ pub fn search(text: &str, limit: usize) -> Vec<NamedPlace> {
 /// The places of the `count` best ranks, each once, the best first.
 fn best(mut ranks: Vec<Rank>, count: usize) -> Vec<u32> {
     // A place may be met by several of its names: the best counts.
-    ranks.sort_unstable_by_key(|&(is_begun, exactness, quality, _, place)| (place, is_begun, exactness, quality));
+    ranks.sort_unstable_by_key(|&(is_begun, exactness, quality, population, place)| {
+        (place, is_begun, exactness, quality, population)
+    });
     ranks.dedup_by_key(|&mut (.., place)| place);
     if count < ranks.len() {
         ranks.select_nth_unstable(count);
@@ -121,7 +127,10 @@ fn match_names(gazetteer: &Gazetteer, wanted: &str, qualities: &[Option<u8>], fo
         let Some(quality) = qualities[usize::from(row.region)] else { continue };
         let end = keys.starts.get(key + 1).map_or(keys.text.len(), |&start| start as usize) - 1;
         if let Some(exactness) = exactness(&keys.text[at..end], &words, at == keys.starts[key] as usize) {
-            found(exactness, quality, row.population, place);
+            let is_main_name = key == 0 || keys.places[key - 1] != place;
+            let counts_in_full = is_main_name || exactness == Exactness::Whole;
+            let population = row.population.saturating_sub(if counts_in_full { 0 } else { OTHER_NAME_CODES });
+            found(exactness, quality, population, place);
         }
     }
 }
@@ -282,6 +291,16 @@ mod tests {
         assert_eq!(country_of("st petersburg, russia"), ("Saint Petersburg", "RU"));
         assert_eq!(country_of("mount isa").1, "AU");
         assert_eq!(country_of("mt isa").1, "AU");
+    }
+
+    #[test]
+    fn what_is_typed_begins_main_names_before_other_names_of_greater_cities() {
+        for (text, name) in [("mil", "Milan"), ("new y", "New York City"), ("par", "Paris"), ("reyk", "Reykjavík")] {
+            let found = labels(text, 3);
+            assert!(found.iter().any(|label| label.starts_with(name)), "{text}: {found:?}");
+        }
+        // But other names are there, too: København.
+        assert!(search("koben", 3).iter().any(|place| place.name == "Copenhagen"));
     }
 
     #[test]

@@ -227,8 +227,9 @@ impl CivilTime {
 /// Places whose name, or another name, matches `text`, the best first.
 #[pyfunction]
 #[pyo3(signature = (text, limit = 10))]
-pub fn search_places(text: &str, limit: usize) -> Vec<Place> {
-    places::search(text, limit).into_iter().map(|inner| Place { inner }).collect()
+pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
+    // The first question unpacks the gazetteer: a host may ask it in a thread of its own.
+    py.detach(|| places::search(text, limit)).into_iter().map(|inner| Place { inner }).collect()
 }
 
 /// The place nearest to coordinates.
