@@ -194,7 +194,7 @@ impl Sky {
     }
 
     /// What refraction does.
-    pub(super) fn refraction(&self) -> &Refraction {
+    pub fn refraction(&self) -> &Refraction {
         &self.refraction
     }
 
