@@ -1,5 +1,7 @@
 """What the tests do in a window of Blender. Each function is a generator of its own process (window.run, window_child.py)."""
 
+import importlib
+import math
 import os
 import statistics
 import sys
@@ -7,6 +9,7 @@ import time
 
 import addon_utils
 import bpy
+import mathutils
 import numpy as np
 import screen
 
@@ -306,3 +309,37 @@ def hang():
     yield
     while True:
         time.sleep(1.0)
+
+
+def set_view(distance, altitude_deg, azimuth_deg, target=(0.0, 0.0, 0.0)):
+    """Look at `target` from `distance` [m], from a direction of the scene."""
+    view = area("VIEW_3D").spaces.active.region_3d
+    view.view_perspective = "PERSP"
+    view.view_location = target
+    view.view_distance = distance
+    view.view_rotation = mathutils.Euler((math.radians(90.0 - altitude_deg), 0.0, math.radians(180.0 - azimuth_deg))).to_quaternion()
+
+
+def draw_helpers(picture, settings, distance=32.0, altitude_deg=28.0, azimuth_deg=205.0, shading="SOLID"):
+    """Draw in the viewport what `settings` switch on, take a picture, and tell what failed."""
+    enable()
+    yield
+    apply(settings)
+    view = area("VIEW_3D")
+    view.spaces.active.shading.type = shading
+    set_view(distance, altitude_deg, azimuth_deg, (0.0, 0.0, 3.0))
+    yield
+    yield 0.3
+    shown = screenshot(picture)
+    return {"failure": part("viewport_drawing").failure(), "colours": len(np.unique(shown.reshape(-1, 3), axis=0))}
+
+
+def apply(settings):
+    """Set properties of the scene's settings."""
+    for name, value in settings.items():
+        setattr(bpy.context.scene.skyprobe, name, value)
+
+
+def part(name):
+    """Return a module of the add-on."""
+    return importlib.import_module(f"{PACKAGE}.{name}")
