@@ -86,12 +86,13 @@ def _draw_above(context, scenery):
         x, y = (seen.x / seen.w + 1.0) * region.width / 2.0, (seen.y / seen.w + 1.0) * region.height / 2.0
         return (x, y) if -50.0 < x < region.width + 50.0 and -50.0 < y < region.height + 50.0 else None
 
+    taken = []
     with viewport_pens.pixel_state():
         for marker in scenery.markers:
             place, towards = project(marker.point), marker.light_from and project(marker.light_from)
             if place is not None:
-                viewport_pens.draw_disc(place, scale, marker, towards)
-    viewport_pens.draw_labels(scenery.labels, project, scale)
+                taken.append(viewport_pens.draw_disc(place, scale, marker, towards))
+    viewport_pens.draw_labels(scenery.labels, project, scale, taken)
 
 
 def register():

@@ -63,17 +63,19 @@ def pixel_state():
 
 
 def draw_disc(place, scale, marker, towards):
-    """Draw the viewport_scenery.Marker `marker` at `place` [pixels]; its lit side points to `towards` [pixels], or up without."""
+    """Draw the viewport_scenery.Marker `marker` at `place` [pixels], its lit side towards the point `towards`, or up; return its box."""
     radius = marker.radius * scale
     circle = _circle(place, radius)
+    box = (place[0] - radius, place[1] - radius, place[0] + radius, place[1] + radius)
     # A rim of shade sets it off from a bright sky.
     _draw_smooth(_circle(place, radius + 2.0 * scale), (0.0, 0.0, 0.0, 0.45 * marker.color[3]))
     if marker.light_from is None:
         _draw_smooth(circle, marker.color)
-        return
+        return box
     _draw_smooth(circle, marker.shade)
     angle = math.atan2(towards[1] - place[1], towards[0] - place[0]) if towards else math.pi / 2.0
     _draw_smooth(_lit_part(place, radius, marker.fraction, angle), marker.color)
+    return box
 
 
 def _pushed(place, centre, distance):
@@ -128,9 +130,9 @@ def _draw_smooth(outline, color):
     batch_for_shader(shader, "TRIS", {"pos": points, "color": colors}, indices=triangles).draw(shader)
 
 
-def draw_labels(labels, project, scale):
-    """Write viewport_scenery.Labels where `project(point)` puts them, the important ones first, none over another."""
-    taken = []
+def draw_labels(labels, project, scale, taken):
+    """Write viewport_scenery.Labels where `project(point)` puts them, the important ones first, none over another or a box that is `taken`."""
+    taken = list(taken)
     centre = project((0.0, 0.0, 0.0))
     for label in sorted(labels, key=lambda label: label.importance):
         place = project(label.point)

@@ -212,7 +212,7 @@ class _Maker:
                 self._segments(_dashed(direction, foot, 24), (*color[:3], 0.30), 1.0)
                 self._segments(_dashed(foot, foot * 0.0, 24), (*color[:3], 0.30), 1.0)
             alpha = 1.0 if up else 0.4
-            moonlike = {"light_from": self._point(sun * 20.0), "fraction": lit} if name == "Moon" else {}
+            moonlike = {"light_from": self._point(moon + 0.05 * (sun - moon)), "fraction": lit} if name == "Moon" else {}
             shade = (*MOON_SHADE[:3], alpha)
             self.scenery.markers.append(Marker(self._point(direction), radius, (*color[:3], alpha), shade, **moonlike))
             text = f"Sun {clock}" if name == "Sun" else f"Moon {lit:.0%}"
