@@ -39,10 +39,14 @@ class Day:
 
 @lru_cache(maxsize=2)
 def _sky(latitude, longitude, elevation_m):
-    """Return a sky that is asked for positions only; its time does not matter, its air bends light as any does."""
-    air = skyprobe.Atmosphere(preset="clear", quality="draft")
-    time = "2000-01-01T12:00:00+00:00"
-    return skyprobe.Sky(latitude=latitude, longitude=longitude, elevation_m=elevation_m, time=time, atmosphere=air, sun_model="thesis")
+    """Return a sky that is asked for positions only: its time does not matter, and any clear air bends light alike."""
+    place = {"latitude": latitude, "longitude": longitude, "elevation_m": elevation_m}
+    return skyprobe.Sky(**place, time="2000-01-01T12:00:00+00:00", atmosphere=_air(), sun_model="thesis")
+
+
+@lru_cache(maxsize=1)
+def _air():
+    return skyprobe.Atmosphere(preset="clear", quality="draft")
 
 
 @lru_cache(maxsize=4)
@@ -68,7 +72,7 @@ def seasons(place, year, offset_s):
 
 @lru_cache(maxsize=4)
 def analemmas(place, year, offset_s):
-    """Return (hour, curve) for each full hour of the clock: where the Sun stands then through `year`, closed, (N, 3)."""
+    """Return the curve for each full hour of the clock: where the Sun stands then through `year`, closed, (24, N, 3)."""
     start = _midnight(datetime.date(year, 1, 1), offset_s)
     days = np.round(np.linspace(0.0, 365.0, STEPS_OF_YEAR + 1)) * DAY_S
     hours = np.arange(24)
@@ -76,7 +80,7 @@ def analemmas(place, year, offset_s):
     curves = directions(_sky(*place).positions("Sun", times.ravel())).reshape(24, -1, 3)
     # A year is not a whole number of days: the ends lie a quarter of a day's way apart, half a line's width.
     curves[:, -1] = curves[:, 0]
-    return tuple(zip(hours.tolist(), curves))
+    return curves
 
 
 def sun_and_moon(place, moment):
@@ -92,20 +96,16 @@ def directions(positions):
 
 
 def above_horizon(curve):
-    """Return the parts of `curve`, (N, 3), above the horizon, which end on it."""
-    parts, part = [], []
-    for index, point in enumerate(curve):
-        before = curve[index - 1] if index else point
-        if (point[2] >= 0.0) != (before[2] >= 0.0):
-            part.append(before + (point - before) * (before[2] / (before[2] - point[2])))
-        if point[2] >= 0.0:
-            part.append(point)
-        elif part:
-            parts.append(np.array(part))
-            part = []
-    if part:
-        parts.append(np.array(part))
-    return [part for part in parts if len(part) > 1]
+    """Return the ends of the lines, (2 M, 3), between neighbours of `curve`, (N, 3) or several (K, N, 3), cut off at the horizon."""
+    first, second = (part.reshape(-1, 3) for part in (curve[..., :-1, :], curve[..., 1:, :]))
+    seen = (first[:, 2] > 0.0) | (second[:, 2] > 0.0)
+    first, second = first[seen], second[seen]
+    # The share of a line after which it meets the horizon, of those that do.
+    rise = second[:, 2] - first[:, 2]
+    share = (-first[:, 2] / np.where(rise == 0.0, 1.0, rise))[:, None]
+    meeting = first + share * (second - first)
+    ends = np.stack([np.where(first[:, 2:] < 0.0, meeting, first), np.where(second[:, 2:] < 0.0, meeting, second)], axis=1)
+    return ends.reshape(-1, 3)
 
 
 def dashes_below_horizon(curve):

@@ -166,8 +166,7 @@ class _Maker:
 
     def day(self, day):
         """The way of the Sun on the date, with hours, sunrise and sunset."""
-        for part in sun_paths.above_horizon(day.path):
-            self._curve(part, PATH, 2.6)
+        self._segments(sun_paths.above_horizon(day.path), PATH, 2.6)
         self._segments(sun_paths.dashes_below_horizon(day.path), NIGHT, 1.4)
         for hour, mark in enumerate(day.hours):
             above = mark.direction[2] >= 0.0
@@ -186,18 +185,18 @@ class _Maker:
     def seasons(self, seasons):
         """Where the Sun turns, faintly."""
         for (mark, path), color in zip(seasons, SEASONS):
-            for part in sun_paths.above_horizon(path):
-                self._curve(part, color, 1.2)
+            self._segments(sun_paths.above_horizon(path), color, 1.2)
             if mark.direction[2] > 0.0:
                 self._label(mark.text, mark.direction, (*color[:3], 0.75), LAST, 10.0, push=9.0)
 
     def analemmas(self, analemmas, labelled):
         """Where the Sun stands through the year at each hour of the clock, what is above the horizon."""
-        for hour, curve in analemmas:
-            for part in sun_paths.above_horizon(curve):
-                self._curve(part, ANALEMMA, 1.3)
+        self._segments(sun_paths.above_horizon(analemmas), ANALEMMA, 1.3)
+        if not labelled:
+            return
+        for hour, curve in enumerate(analemmas):
             highest = curve[np.argmax(curve[:, 2])]
-            if labelled and highest[2] > 0.05:
+            if highest[2] > 0.05:
                 self._label(str(hour), highest, QUIET_TEXT, SECOND if hour % 3 == 0 else THIRD, push=10.0)
 
     def bodies(self, sun, moon, clock):
