@@ -2,6 +2,7 @@
 """Every difference between Blender versions, and between builds with and without Cycles, that the add-on meets."""
 
 import bpy
+import gpu
 
 # Names that bpy.data.colorspace.working_space can have, and what skyprobe calls the same space.
 _WORKING_SPACES = {"Linear Rec.709": "lin_rec709", "Linear Rec.2020": "lin_rec2020", "ACEScg": "acescg"}
@@ -127,3 +128,8 @@ def remove_curve(thing, data_path):
 def set_linear_rec709(image):
     """Let the pixels of `image` be linear Rec.709, which Blender before 4.0 calls Linear."""
     image.colorspace_settings.name = "Linear" if bpy.app.version < (4, 0, 0) else "Linear Rec.709"
+
+
+def builtin_shader(name):
+    """Return one of Blender's own shaders for points in space, by its name since 4.0."""
+    return gpu.shader.from_builtin(name if bpy.app.version >= (4, 0, 0) else f"3D_{name}")

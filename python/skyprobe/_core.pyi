@@ -750,6 +750,20 @@ class Sky:
     def sun_events(self) -> SunEvents:
         """Sunrise, sunset, twilights and noon on the local date of this sky's time."""
 
+    def positions(self, name: str, times: ArrayLike) -> NDArray[numpy.float64]:
+        """Where a body stands at other times, from the same place through the same air, shape (N, 3): airless altitude, azimuth from north through
+        east, apparent altitude. [degrees]
+
+        Parameters
+        ----------
+        name
+            Name of one of ``bodies()``, such as "Sun" or "Moon", in any case.
+        times
+            Seconds since 1970 as ``datetime.timestamp()`` gives them, within the years 1000 to 3000, shape (N,). [s]
+
+        Each time costs some 0.2 ms on one core; the Sun of a sky with ``sun_model="thesis"`` (within 0.02 degrees) under a microsecond.
+        """
+
     def rise_and_set(self, name: str) -> RiseAndSet:
         """When a body rises, stands highest and sets on the local date of this sky's time.
 

@@ -195,6 +195,29 @@ impl Sky {
         Ok(SunEvents { inner })
     }
 
+    /// Where a body stands at other times, from the same place through the same air, shape (N, 3): airless altitude, azimuth from north through
+    /// east, apparent altitude. [degrees]
+    ///
+    /// Parameters
+    /// ----------
+    /// name
+    ///     Name of one of ``bodies()``, such as "Sun" or "Moon", in any case.
+    /// times
+    ///     Seconds since 1970 as ``datetime.timestamp()`` gives them, within the years 1000 to 3000, shape (N,). [s]
+    ///
+    /// Each time costs some 0.2 ms on one core; the Sun of a sky with ``sun_model="thesis"`` (within 0.02 degrees) under a microsecond.
+    fn positions<'py>(&self, py: Python<'py>, name: &str, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (place, _) = self.place_and_time()?;
+        let target = name.parse()?;
+        let seconds = arrays::vector("times", times)?;
+        let positions = py.detach(|| {
+            let times = seconds.into_iter().map(Time::from_unix_seconds).collect::<crate::Result<Vec<_>>>()?;
+            Ok::<_, crate::Error>(ephemeris::positions(target, place, &times, self.sun_model, self.inner.refraction()))
+        })?;
+        let rows = positions.iter().flat_map(|p| [p.altitude_deg, p.azimuth_deg, p.apparent_altitude_deg]);
+        PyArray1::from_iter(py, rows).reshape([positions.len(), 3])
+    }
+
     /// When a body rises, stands highest and sets on the local date of this sky's time.
     ///
     /// Parameters

@@ -7,6 +7,7 @@ mod dome;
 mod eclipse;
 mod filter;
 mod irradiance;
+mod kept_refraction;
 mod layers;
 mod model;
 mod night;

@@ -2,8 +2,8 @@
 
 use super::atmosphere::Atmosphere;
 use super::eclipse::{self, eclipsed_sunlight};
+use super::kept_refraction::refraction;
 use super::night::{NightOptions, When, moon};
-use crate::atmosphere::molecules;
 use crate::celestial::{EclipsedSunlight, MoonDisc};
 use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SolarEclipse, SunModel, bodies, sun_at};
 use crate::error::{Result, check_range};
@@ -17,9 +17,6 @@ use std::sync::{Arc, OnceLock};
 
 mod pictured;
 mod spectral;
-
-/// Wavelength for which refraction is traced: near the peak of daylight vision [nm].
-const REFRACTION_NM: f64 = 550.0;
 
 /// The sky over an observer with the Sun at one position. Cheap to make: the light is solved by its [`Atmosphere`], once.
 ///
@@ -35,7 +32,7 @@ pub struct Sky {
     /// Made when it is first needed.
     moon: OnceLock<MoonDisc>,
     night: NightOptions,
-    refraction: Refraction,
+    refraction: Arc<Refraction>,
     atmosphere: Arc<Atmosphere>,
 }
 
@@ -194,7 +191,7 @@ impl Sky {
     }
 
     /// What refraction does.
-    pub(super) fn refraction(&self) -> &Refraction {
+    pub fn refraction(&self) -> &Refraction {
         &self.refraction
     }
 
@@ -291,19 +288,6 @@ fn sum_of_products(values: &[f64], weights: &[[f64; 3]]) -> [f64; 3] {
         }
     }
     xyz
-}
-
-/// Refraction in the air of a preset; a profile says nothing of refraction, so its air has none.
-fn refraction(atmosphere: &Atmosphere, elevation_m: f64) -> Refraction {
-    let Some(air) = atmosphere.parameters().and_then(|parameters| parameters.resolve().ok()) else {
-        return Refraction::none();
-    };
-    let radius_m = 1000.0 * atmosphere.profile().planet_radius_km;
-    Refraction::new(
-        |altitude_m| molecules::refractivity_in(air.standard_atmosphere, altitude_m, REFRACTION_NM),
-        radius_m,
-        elevation_m,
-    )
 }
 
 #[cfg(test)]

@@ -87,6 +87,19 @@ impl Time {
         Ok(Self { civil: timestamp.to_zoned(TimeZone::UTC), utc, tt, ut1 })
     }
 
+    /// The instant so many seconds after 1970-01-01T00:00:00 UTC by the civil clock, which counts no leap seconds; civil time in UTC.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if `seconds` is not finite or the instant lies outside the years 1000 to 3000.
+    pub fn from_unix_seconds(seconds: f64) -> Result<Self> {
+        let (low, high) = (-30_610_224_000.0, 32_535_215_999.0);
+        check_range("times", seconds, low, high, "s since 1970, which is the years 1000 to 3000")?;
+        let timestamp = Timestamp::UNIX_EPOCH
+            .checked_add(SignedDuration::from_secs_f64(seconds))
+            .map_err(|_| Error::input("times", seconds, "within the years 1000 to 3000"))?;
+        Self::from_civil(timestamp.to_zoned(TimeZone::UTC), "a number of seconds")
+    }
+
     fn from_civil(civil: Zoned, given: &str) -> Result<Self> {
         if !YEARS.contains(&civil.year()) {
             return Err(Error::input("time", format!("{given:?}"), "within the years 1000 to 3000"));

@@ -64,3 +64,20 @@ def test_a_step_that_fails_says_so(windowed):
 def test_a_step_that_hangs_is_ended(windowed):
     with pytest.raises(RuntimeError, match="did not end within 8 s"):
         window.run(windowed.blender, "window_steps.hang", windowed.wheel, timeout_s=8)
+
+
+def test_the_ways_of_the_sun_are_seen_when_they_are_switched_on(windowed, pictures):
+    answer = windowed.run("window_steps.switch_helpers", pictures=str(pictures))
+    pixels = answer["pixels"]
+    assert answer["failure"] is None
+    for name in ("nothing", "no_overlays", "off"):
+        assert pixels[name] == [0, 0], name
+    assert pixels["path"][0] > 500 and pixels["path"][1] == 0
+    assert pixels["north"][0] == 0 and pixels["north"][1] > 100
+    assert pixels["everything"][0] > 500 and pixels["everything"][1] > 100
+
+
+def test_a_drawing_that_fails_is_told_once_and_comes_back_with_the_next_change(windowed):
+    answer, printed = windowed.run("window_steps.break_helpers", complaints_allowed=True)
+    assert answer == {"calls": 1, "broken": "ArithmeticError('this drawing fails')", "still": answer["broken"], "mended": None}
+    assert printed.count("this drawing fails") == 1

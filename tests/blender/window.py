@@ -82,7 +82,9 @@ def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arg
         question, answer, log = folder / "question.json", folder / "answer.json", folder / "output.txt"
         question.write_text(json.dumps({"function": function, "arguments": arguments}), encoding="utf-8")
         environment = {
-            **os.environ,
+            **{name: value for name, value in os.environ.items() if name not in {"PYTHONHOME", "PYTHONPATH"}},
+            # Debian's Blender takes its Python, and with it numpy, from where it finds one.
+            "PATH": f"/usr/bin:/bin:{os.environ['PATH']}",
             "DISPLAY": display,
             "LIBGL_ALWAYS_SOFTWARE": "1",
             "BLENDER_USER_SCRIPTS": folder / "scripts",

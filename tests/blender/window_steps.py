@@ -1,5 +1,7 @@
 """What the tests do in a window of Blender. Each function is a generator of its own process (window.run, window_child.py)."""
 
+import importlib
+import math
 import os
 import statistics
 import sys
@@ -7,6 +9,7 @@ import time
 
 import addon_utils
 import bpy
+import mathutils
 import numpy as np
 import screen
 
@@ -306,3 +309,109 @@ def hang():
     yield
     while True:
         time.sleep(1.0)
+
+
+def set_view(distance, altitude_deg, azimuth_deg, target=(0.0, 0.0, 0.0)):
+    """Look at `target` from `distance` [m], from a direction of the scene."""
+    view = area("VIEW_3D").spaces.active.region_3d
+    view.view_perspective = "PERSP"
+    view.view_location = target
+    view.view_distance = distance
+    view.view_rotation = mathutils.Euler((math.radians(90.0 - altitude_deg), 0.0, math.radians(180.0 - azimuth_deg))).to_quaternion()
+
+
+def draw_helpers(picture, settings, distance=32.0, altitude_deg=28.0, azimuth_deg=205.0, shading="SOLID"):
+    """Draw in the viewport what `settings` switch on, take a picture, and tell what failed."""
+    enable()
+    yield
+    apply(settings)
+    view = area("VIEW_3D")
+    view.spaces.active.shading.type = shading
+    set_view(distance, altitude_deg, azimuth_deg, (0.0, 0.0, 3.0))
+    yield
+    yield 0.3
+    shown = screenshot(picture)
+    return {"failure": part("viewport_drawing").failure(), "colours": len(np.unique(shown.reshape(-1, 3), axis=0))}
+
+
+# The colours of the Sun's path and of the north arrow, as they are on the screen, within a few of 255.
+PATH_COLOR, NORTH_COLOR = (246, 189, 75), (236, 105, 91)
+
+
+def count_pixels(picture, color, tolerance=14):
+    """Return how many pixels of `picture` have the `color`."""
+    difference = np.abs(picture[:, :1100].astype(int) - color).max(axis=2)
+    return int((difference <= tolerance).sum())
+
+
+def switch_helpers(pictures):
+    """Switch on what is drawn in the viewport one by one and off again, and off by the overlays; tell how much of it is seen, and how long it takes."""
+    enable()
+    yield
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    set_view(24.0, 30.0, 20.0, (0.0, 0.0, 3.0))
+    drawing = part("viewport_drawing")
+    found = {}
+
+    def look(name):
+        shown = screenshot(f"{pictures}/{name}.png")
+        found[name] = [count_pixels(shown, PATH_COLOR), count_pixels(shown, NORTH_COLOR)]
+
+    everything = {"show_diurnal_path": True, "show_analemma": True, "show_north": True, "helper_size": 8.0, "hour": 16.5}
+    overlay = area("VIEW_3D").spaces.active.overlay
+    for name, settings, overlays in (
+        ("nothing", {}, True),
+        ("path", {"show_diurnal_path": True, "helper_size": 8.0, "hour": 16.5}, True),
+        ("north", {"show_diurnal_path": False, "show_north": True}, True),
+        ("everything", everything, True),
+        ("no_overlays", {}, False),
+        ("off", dict.fromkeys(("show_diurnal_path", "show_analemma", "show_north"), False), True),
+    ):
+        apply(settings)
+        overlay.show_overlays = overlays
+        yield
+        yield 0.2
+        look(name)
+    apply(everything)
+    times = []
+    for minute in range(60):
+        bpy.context.scene.skyprobe.hour = 10.0 + minute / 60.0
+        start = time.perf_counter()
+        drawing._scenery.of(bpy.context.scene.skyprobe)
+        times.append(time.perf_counter() - start)
+        yield
+    return {"pixels": found, "failure": drawing.failure(), "median_ms": 1e3 * float(np.median(times))}
+
+
+def break_helpers():
+    """Let the drawing fail, several times over; mend it, and change a setting."""
+    enable()
+    drawing = part("viewport_drawing")
+    make, calls = drawing._scenery.of, []
+
+    def fail(settings):
+        calls.append(1)
+        raise ArithmeticError("this drawing fails")
+
+    drawing._scenery.of = fail
+    apply({"show_north": True})
+    for _ in range(8):
+        yield 0.1
+    broken = drawing.failure()
+    drawing._scenery.of = make
+    yield 0.1
+    still = drawing.failure()
+    apply({"helper_size": 5.0})
+    yield 0.2
+    return {"calls": len(calls), "broken": broken, "still": still, "mended": drawing.failure()}
+
+
+def apply(settings):
+    """Set properties of the scene's settings."""
+    for name, value in settings.items():
+        setattr(bpy.context.scene.skyprobe, name, value)
+
+
+def part(name):
+    """Return a module of the add-on."""
+    return importlib.import_module(f"{PACKAGE}.{name}")
