@@ -7,7 +7,7 @@ use super::gazetteer::{GAZETTEER, NamedPlace};
 use crate::error::{Result, check_range};
 
 /// IUGG mean radius of the Earth [km].
-const EARTH_RADIUS_KM: f64 = 6371.008_8;
+const EARTH_RADIUS_KM: f64 = 6_371.008_8;
 
 /// The eight winds, from north through east.
 const WINDS: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
