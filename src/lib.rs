@@ -1,6 +1,7 @@
 //! The light of the sky for a place, a time and a state of the air: spectral, physically based, as a high dynamic range light probe.
 //!
 //! ```text
+//! a name or coordinates ──> places ──> place
 //! place, time ──> ephemeris ──> directions and sizes of the bodies
 //! directions ──> celestial (light outside the air of all that shines at night)
 //! air ──> atmosphere (optical profile) ──> light: solve ──> light field      (once for one air)
@@ -28,6 +29,7 @@ pub mod ephemeris;
 pub mod error;
 pub mod io;
 pub mod light;
+pub mod places;
 pub mod post;
 pub mod probe;
 pub mod progress;

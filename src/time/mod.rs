@@ -8,17 +8,19 @@
 //!   After it UT1 - UTC is taken as 0: leap seconds to come, or whatever replaces them, are unknown.
 //! - A second 60 reads as the second 59 before it.
 
+mod civil_time;
 mod delta_t;
 mod julian_date;
 mod leap_seconds;
 mod parse;
 mod scales;
-#[cfg(feature = "zone-lookup")]
 mod zone_lookup;
 
+pub use civil_time::CivilTime;
 pub use delta_t::delta_t_s;
 pub use julian_date::JulianDate;
-pub use parse::ZoneChoice;
+pub use parse::{Occurrence, ZoneChoice};
+pub use zone_lookup::zone_of_place;
 
 use crate::error::{Error, Result, check_range};
 use jiff::tz::TimeZone;
@@ -67,7 +69,7 @@ impl Time {
     /// [`Error::Input`] for `time` if the text cannot be read, names no known zone, or lies outside the years 1000 to 3000;
     /// for `zone` if [`ZoneChoice::Named`] is not in the IANA time zone database.
     pub fn parse(text: &str, zone: ZoneChoice) -> Result<Self> {
-        parse::parse(text, zone).and_then(|civil| Self::from_civil(civil, text))
+        parse::parse(text, zone).and_then(|(civil, _)| Self::from_civil(civil, text))
     }
 
     /// The instant with these Julian dates in TT and in UT1, civil time in UTC: for comparisons with tables that state both.

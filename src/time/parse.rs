@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use jiff::Zoned;
 use jiff::civil::DateTime;
 use jiff::fmt::temporal::{DateTimeParser, Pieces};
-use jiff::tz::TimeZone;
+use jiff::tz::{AmbiguousOffset, TimeZone};
 
 const FORM: &str =
     "a date and time such as 2005-06-21T13:00:00+02:00, 2005-06-21T11:00:00Z or 2005-06-21T13:00:00[Europe/Stockholm]";
@@ -26,21 +26,37 @@ pub enum ZoneChoice<'a> {
     },
 }
 
-pub(super) fn parse(text: &str, zone: ZoneChoice) -> Result<Zoned> {
+/// How often a clock on the wall shows a local time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Occurrence {
+    /// Once, as most times; so does a time that is given with its offset.
+    Once,
+    /// Twice, because clocks are set back; the first is taken.
+    Repeated,
+    /// Never, because clocks are set forward; the time as far after the gap is taken.
+    Skipped,
+}
+
+pub(super) fn parse(text: &str, zone: ZoneChoice) -> Result<(Zoned, Occurrence)> {
     let unreadable = || Error::input("time", format!("{text:?}"), FORM);
     let pieces = Pieces::parse(text.trim()).map_err(|_| unreadable())?;
     let local = DateTime::from_parts(pieces.date(), pieces.time().ok_or_else(unreadable)?);
     let in_text = if pieces.time_zone_annotation().is_some() {
-        Some(parse_annotated(text, &pieces)?)
+        let zoned = parse_annotated(text, &pieces)?;
+        let occurrence = match pieces.to_numeric_offset() {
+            Some(_) => Occurrence::Once,
+            None => occurrence(local, zoned.time_zone()),
+        };
+        Some((zoned, occurrence))
     } else if let Some(offset) = pieces.to_numeric_offset() {
         let zone = if offset.is_zero() { TimeZone::UTC } else { TimeZone::fixed(offset) };
-        Some(offset.to_timestamp(local).map_err(|_| unreadable())?.to_zoned(zone))
+        Some((offset.to_timestamp(local).map_err(|_| unreadable())?.to_zoned(zone), Occurrence::Once))
     } else {
         None
     };
     match (in_text, zone) {
-        (Some(zoned), ZoneChoice::Named(name)) => Ok(zoned.with_time_zone(zone_named(name)?)),
-        (Some(zoned), _) => Ok(zoned),
+        (Some((zoned, occurrence)), ZoneChoice::Named(name)) => Ok((zoned.with_time_zone(zone_named(name)?), occurrence)),
+        (Some(found), _) => Ok(found),
         (None, ZoneChoice::InText) => Err(Error::input(
             "time",
             format!("{text:?}"),
@@ -70,23 +86,27 @@ fn zone_named(name: &str) -> Result<TimeZone> {
 }
 
 /// The first of two, or as far after a gap as in it: the rule of RFC 5545.
-fn at_wall_clock(local: DateTime, zone: TimeZone) -> Option<Zoned> {
-    zone.to_ambiguous_zoned(local).compatible().ok()
+fn at_wall_clock(local: DateTime, zone: TimeZone) -> Option<(Zoned, Occurrence)> {
+    let occurrence = occurrence(local, &zone);
+    Some((zone.into_ambiguous_zoned(local).compatible().ok()?, occurrence))
 }
 
-#[cfg(feature = "zone-lookup")]
-fn zone_of_place(_text: &str, latitude_deg: f64, longitude_deg: f64) -> Result<TimeZone> {
-    use crate::error::check_range;
-    check_range("latitude", latitude_deg, -90.0, 90.0, "degrees")?;
-    check_range("longitude", longitude_deg, -180.0, 180.0, "degrees")?;
-    zone_named(super::zone_lookup::zone_name(latitude_deg, longitude_deg))
+fn occurrence(local: DateTime, zone: &TimeZone) -> Occurrence {
+    match zone.to_ambiguous_timestamp(local).offset() {
+        AmbiguousOffset::Unambiguous { .. } => Occurrence::Once,
+        AmbiguousOffset::Fold { .. } => Occurrence::Repeated,
+        AmbiguousOffset::Gap { .. } => Occurrence::Skipped,
+    }
 }
 
-#[cfg(not(feature = "zone-lookup"))]
-fn zone_of_place(text: &str, _latitude_deg: f64, _longitude_deg: f64) -> Result<TimeZone> {
-    Err(Error::input(
-        "time",
-        format!("{text:?}"),
-        "given with an offset, a zone in brackets or the parameter zone: this build does not know the zones of places",
-    ))
+fn zone_of_place(text: &str, latitude_deg: f64, longitude_deg: f64) -> Result<TimeZone> {
+    if cfg!(feature = "zone-lookup") {
+        zone_named(super::zone_of_place(latitude_deg, longitude_deg)?)
+    } else {
+        Err(Error::input(
+            "time",
+            format!("{text:?}"),
+            "given with an offset, a zone in brackets or the parameter zone: this build does not know the zones of places",
+        ))
+    }
 }
