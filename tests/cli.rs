@@ -37,6 +37,12 @@ fn wrong_input_is_one_line_and_exit_code_2_and_leaves_nothing() {
         (vec!["render", "--lat", "1", "--lon", "0", "--time", "yesterday", "-o", "a.exr"], "time = \"yesterday\": must be"),
         (vec!["render", "--lat", "1", "-o", "a.exr"], "longitude = nothing: must be given"),
         (vec!["render", "--lat", "north"], "--latitude"),
+        (vec!["render", "--place", "Qqqxx", "-o", "a.exr"], "place = \"Qqqxx\": must be the name of a town"),
+        (vec!["render", "--place", "95, 13", "-o", "a.exr"], "latitude = 95: must be a number from -90 to 90 degrees"),
+        (vec!["render", "--place", "Lund", "--lat", "1", "-o", "a.exr"], "cannot be used with"),
+        (vec!["render", "--place", "Lund", "--sun-altitude", "3", "--sun-azimuth", "3", "-o", "a.exr"], "cannot be used with"),
+        (vec!["places", "Qqqxx"], "place = \"Qqqxx\""),
+        (vec!["places", "lund", "--limit", "0"], "--limit"),
         (vec!["render", "--lat", "1", "--sun-altitude", "3", "--sun-azimuth", "3", "-o", "a.exr"], "cannot be used with"),
         (with(&SUN, &["--turbidity", "-1", "-o", "a.exr"]), "turbidity = -1: must be a number from 1 to 64"),
         (with(&SUN, &["--turbidity", "inf", "-o", "a.exr"]), "turbidity = inf: must be"),
@@ -400,4 +406,47 @@ fn the_layers_of_a_night_are_scaled_and_written_apart() {
     let dump = tool(folder.path(), &["render", "--config", "night.json", "--zenith-brightness", "20", "--dump-config"]);
     let config: serde_json::Value = serde_json::from_slice(&dump.stdout).unwrap();
     assert_eq!((&config["night"]["zenith_brightness"], &config["night"]["bortle"]), (&20.0.into(), &serde_json::Value::Null));
+}
+
+#[test]
+fn a_place_is_named_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let stdout = |arguments: &[&str]| {
+        let answer = tool(folder.path(), arguments);
+        assert_eq!(answer.status.code(), Some(0), "{}", text(&answer.stderr));
+        text(&answer.stdout)
+    };
+    let time = ["--time", "2005-06-21T13:00"];
+    let info = stdout(&[&["info", "--no-light", "--place", "lund, sweden"], &time[..]].concat());
+    assert!(info.starts_with("place               Lund, Skåne, Sweden\n"), "{info}");
+    assert!(
+        info.contains("55.7060 deg N, 13.1930 deg E, 51 m") && info.contains("Europe/Stockholm (found from the place)"),
+        "{info}"
+    );
+    // A minus in front is no option.
+    let south = stdout(&[&["info", "--no-light", "--json", "--place", "-33.87, 151.21", "--elevation", "7"], &time[..]].concat());
+    let south: serde_json::Value = serde_json::from_str(&south).unwrap();
+    assert_eq!(south["place"]["label"], "Sydney, New South Wales, Australia");
+    assert_eq!((&south["zone"], south["elevation_m"].as_f64()), (&"Australia/Sydney".into(), Some(7.0)));
+    let probe = ["--quality", "draft", "--width", "64", "-o", "a.exr"];
+    let rendered = stdout(&[&["render", "--place", "Lund, Sweden"], &time[..], &probe].concat());
+    assert!(rendered.starts_with("place: Lund, Skåne, Sweden (55.706, 13.193; 51 m)\n"), "{rendered}");
+    // A place given by numbers over a named one is not called by its name.
+    std::fs::write(folder.path().join("lund.json"), r#"{"place": "Lund, Sweden", "time": "2005-06-21T13:00"}"#).unwrap();
+    let moved = stdout(&["info", "--no-light", "--config", "lund.json", "--lat", "-55.71"]);
+    assert!(moved.starts_with("place               55.7100 deg S, 13.1930 deg E"), "{moved}");
+    let dumped = stdout(&["render", "--config", "lund.json", "--dump-config"]);
+    assert!(dumped.contains("\"latitude\": 55.706") && !dumped.contains("\"place\""), "{dumped}");
+}
+
+#[test]
+fn places_are_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = |arguments: &[&str]| text(&tool(folder.path(), &[&["places"], arguments].concat()).stdout);
+    let portlands = list(&["portland", "--limit", "3"]);
+    assert_eq!(portlands.lines().count(), 3);
+    assert!(portlands.starts_with("Portland, Oregon, United States"), "{portlands}");
+    assert!(list(&["portland,", "maine"]).starts_with("Portland, Maine, United States"));
+    let sydney: serde_json::Value = serde_json::from_str(&list(&["--json", "-33.87", "151.21"])).unwrap();
+    assert_eq!((&sydney[0]["time_zone"], &sydney[0]["name"]), (&"Australia/Sydney".into(), &serde_json::Value::Null));
 }

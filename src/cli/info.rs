@@ -19,7 +19,7 @@ use std::sync::Arc;
 const EXAMPLES: &str = "\
 Examples:
   The Sun over Ithaca, and how much light it sends through clear air:
-    skyprobe info --lat 42.44 --lon -76.48 --time 2013-05-27T12:00
+    skyprobe info --place \"Ithaca, New York\" --time 2013-05-27T12:00
   The night: planets above the horizon, the Moon's day and next phases, and how dark it is under a suburban sky:
     skyprobe info --lat 55.71 --lon 13.19 --time 2005-01-10T23:00 --bortle 5
   The same for a program, without the light (which takes a second or two to solve):

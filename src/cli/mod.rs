@@ -6,6 +6,7 @@ mod air_options;
 mod info;
 mod night_options;
 mod options;
+mod places;
 mod render;
 mod terminal;
 
@@ -29,6 +30,8 @@ enum Command {
     Render(Box<render::Options>),
     /// Say where Sun, Moon and planets are, when they rise and set, and how much light arrives.
     Info(Box<info::Options>),
+    /// List the places that a name may mean, or say what is known of coordinates.
+    Places(places::Options),
 }
 
 const EXIT_CODES: &str = "\
@@ -43,6 +46,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => match cli.command {
             Command::Render(options) => render::run(&options),
             Command::Info(options) => info::run(&options),
+            Command::Places(options) => places::run(&options),
         },
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             // A closed pipe (`skyprobe --help | head`) is not worth a complaint.
@@ -83,7 +87,7 @@ fn complain(message: &str) {
 /// What clap says over several lines, without the usage.
 fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "error: a command is missing: render or info (see skyprobe --help)".to_string();
+        return "error: a command is missing: render, info or places (see skyprobe --help)".to_string();
     }
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));

@@ -42,13 +42,20 @@ impl ConfigOptions {
 /// Where and when, or a Sun that is put.
 #[derive(Args)]
 pub struct PlaceOptions {
+    /// A town or an observatory by its name, with region or country where there are several ("Lund, Sweden", "portland, maine"), or coordinates in any
+    /// spelling ("55.71, 13.19", "55 42 36 N 13 11 24 E", a link to a map).
+    ///
+    /// Of several places the one with the most inhabitants is taken, and told; `skyprobe places NAME` lists them. It gives the elevation, too: that of
+    /// the town, or roughly that of the land at coordinates.
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true, conflicts_with_all = ["latitude", "longitude"], help_heading = PLACE)]
+    place: Option<String>,
     /// Latitude, north positive, -90 to 90 [degrees].
     #[arg(long, visible_alias = "lat", value_name = "DEG", help_heading = PLACE)]
     latitude: Option<f64>,
     /// Longitude, east positive, -180 to 180 [degrees].
     #[arg(long, visible_alias = "lon", value_name = "DEG", help_heading = PLACE)]
     longitude: Option<f64>,
-    /// Height of the observer above the sea, -500 to 60000 [m]. Default: 0.
+    /// Height of the observer above the sea, -500 to 60000 [m]. Default: that of --place, else 0.
     #[arg(long, value_name = "M", help_heading = PLACE)]
     elevation: Option<f64>,
     /// Date and time (ISO 8601): 2005-06-21T13:00:00+02:00, 2005-06-21T11:00Z, or 2005-06-21T13:00.
@@ -63,7 +70,7 @@ pub struct PlaceOptions {
     #[arg(long, value_name = "MODEL", help_heading = PLACE)]
     sun_model: Option<String>,
     /// Instead of place and time: altitude of the Sun, -90 to 90 [degrees, without refraction].
-    #[arg(long, value_name = "DEG", requires = "sun_azimuth", conflicts_with_all = ["latitude", "longitude", "time", "zone"],
+    #[arg(long, value_name = "DEG", requires = "sun_azimuth", conflicts_with_all = ["place", "latitude", "longitude", "time", "zone"],
           help_heading = PLACE)]
     sun_altitude: Option<f64>,
     /// Instead of place and time: azimuth of the Sun, from north through east [degrees].
@@ -74,8 +81,14 @@ pub struct PlaceOptions {
 impl PlaceOptions {
     /// Writes what was given over `config`.
     pub fn apply(&self, config: &mut Config) -> Result<()> {
-        if self.latitude.is_some() || self.longitude.is_some() || self.time.is_some() {
+        if self.place.is_some() || self.latitude.is_some() || self.longitude.is_some() || self.time.is_some() {
             config.sun = None;
+        }
+        if self.latitude.is_some() || self.longitude.is_some() || self.sun_altitude.is_some() {
+            config.place_label = None;
+        }
+        if let Some(text) = &self.place {
+            config.set_place(text)?;
         }
         if let (Some(altitude_deg), Some(azimuth_deg)) = (self.sun_altitude, self.sun_azimuth) {
             (config.latitude, config.longitude, config.time, config.zone) = (None, None, None, None);

@@ -18,7 +18,7 @@ const OUTPUT: &str = "Output";
 const EXAMPLES: &str = "\
 Examples:
   A summer noon in Lund, for Blender (world environment texture; no rotation needed):
-    skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 -o lund.exr
+    skyprobe render --place \"Lund, Sweden\" --time 2005-06-21T13:00 -o lund.exr
   The same without the Sun's disc, to be used with a Sun lamp, and a picture to look at:
     skyprobe render --lat 55.71 --lon 13.19 --time 2005-06-21T13:00 --no-sun-disc -o lund.exr -o lund.png
   Hazy air over a city, 8k:
@@ -255,6 +255,9 @@ pub fn run(options: &Options) -> Result<()> {
     let is_exr = |path: &PathBuf| Format::of(path).is_ok_and(|format| format == Format::Exr);
     if options.separate_layers && !config.output.iter().any(is_exr) {
         return Err(Error::input("separate_layers", "true", "left out without an output that ends in .exr"));
+    }
+    if let (Some(label), Some(place)) = (&config.place_label, sky.place()) {
+        say(&format!("place: {label} ({}, {}; {} m)", place.latitude_deg, place.longitude_deg, place.elevation_m))?;
     }
     terminal::with_progress(|progress| {
         if let Some(path) = &options.sample_map {

@@ -8,6 +8,8 @@
 //!   "output": ["sky.exr", "sky.png"]
 //! }
 //! ```
+//! Instead of latitude and longitude (and elevation), `"place": "Lund, Sweden"` names the place, or has its coordinates in any spelling
+//! ([`crate::places::locate`]); it is written out as the numbers that it stands for.
 //! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
 //! is a default; an unknown key is an error.
 
@@ -15,6 +17,7 @@ use super::{FileOptions, json};
 use crate::atmosphere::AirParameters;
 use crate::ephemeris::{Place, SunModel};
 use crate::error::{Error, Result, check_range};
+use crate::places::{Location, locate};
 use crate::probe::ProbeSettings;
 use crate::quality::Quality;
 use crate::sky::{Atmosphere, LightOptions, Model, NightOptions, PolarisingFilter, Sky, check_chosen_wavelengths};
@@ -33,6 +36,8 @@ pub struct Config {
     pub longitude: Option<f64>,
     /// Height of the observer above the sea [m].
     pub elevation_m: f64,
+    /// What the key `place`, where it gave latitude, longitude and elevation, was taken to be; not written.
+    pub place_label: Option<String>,
     /// Date and time, ISO 8601; see [`Time::parse`]. Without offset it is local time in `zone`.
     pub time: Option<String>,
     /// IANA time zone; without it the zone of the place.
@@ -90,7 +95,8 @@ impl Default for AtmosphereConfig {
 struct Document {
     latitude: Option<f64>,
     longitude: Option<f64>,
-    elevation_m: f64,
+    elevation_m: Option<f64>,
+    place: Option<String>,
     time: Option<String>,
     zone: Option<String>,
     sun: Option<Value>,
@@ -140,10 +146,11 @@ impl Config {
         let value: Value =
             serde_json::from_str(text).map_err(|error| Error::input("config", "text", format!("JSON ({error})")))?;
         let document: Document = json::read("", &value)?;
-        let config = Self {
+        let mut config = Self {
             latitude: document.latitude,
             longitude: document.longitude,
-            elevation_m: document.elevation_m,
+            elevation_m: 0.0,
+            place_label: None,
             time: document.time,
             zone: document.zone,
             sun: document.sun.map(|sun| json::read("sun", &sun)).transpose()?,
@@ -167,8 +174,27 @@ impl Config {
             file: document.file.map(|file| json::read("file", &file)).transpose()?.unwrap_or_default(),
             output: document.output.map_or(Ok(Vec::new()), |output| read_output(&output))?,
         };
+        if let Some(text) = &document.place {
+            if config.latitude.is_some() || config.longitude.is_some() || config.sun.is_some() {
+                let allowed = "left out where latitude and longitude, or a Sun, are given, or given alone";
+                return Err(Error::input("place", format!("{text:?}"), allowed));
+            }
+            config.set_place(text)?;
+        }
+        config.elevation_m = document.elevation_m.unwrap_or(config.elevation_m);
         config.validate_sections(["sun", "atmosphere", "probe", "file"])?;
         Ok(config)
+    }
+
+    /// Takes latitude, longitude and elevation of the place that `text` names, or whose coordinates it is.
+    ///
+    /// # Errors
+    /// As [`crate::places::locate`].
+    pub fn set_place(&mut self, text: &str) -> Result<()> {
+        let Location { latitude_deg, longitude_deg, elevation_m, label, .. } = locate(text)?;
+        (self.latitude, self.longitude, self.elevation_m) = (Some(latitude_deg), Some(longitude_deg), elevation_m);
+        self.place_label = Some(label);
+        Ok(())
     }
 
     /// The configuration with every value written out, as indented JSON.

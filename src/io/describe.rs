@@ -31,6 +31,7 @@ fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &Pr
         latitude: place.map(|place| place.latitude_deg),
         longitude: place.map(|place| place.longitude_deg),
         elevation_m: sky.elevation_m(),
+        place_label: None,
         time: time.map(Time::to_string),
         zone: time.and_then(Time::zone_name).map(str::to_string),
         sun: place.is_none().then_some(put),

@@ -21,6 +21,9 @@ impl Report<'_> {
         });
         if let (Some(place), Some(time)) = (sky.place(), sky.time()) {
             report["place"] = json!({"latitude": place.latitude_deg, "longitude": place.longitude_deg});
+            if let Some(label) = &self.config.place_label {
+                report["place"]["label"] = json!(label);
+            }
             report["time"] = json!(time.to_string());
             report["zone"] = json!(time.zone_name());
             report["zone_source"] = json!(zone_source(self.config, time));

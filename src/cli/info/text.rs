@@ -40,8 +40,11 @@ impl Report<'_> {
         let (Some(place), Some(time)) = (self.sky.place(), self.sky.time()) else { return };
         let (north, east) = (place.latitude_deg, place.longitude_deg);
         let side = |value: f64, positive: char, negative: char| if value < 0.0 { negative } else { positive };
+        if let Some(label) = &self.config.place_label {
+            lines.add("place", label);
+        }
         lines.add(
-            "place",
+            if self.config.place_label.is_some() { "" } else { "place" },
             format!(
                 "{:.4} deg {}, {:.4} deg {}, {} m",
                 north.abs(),

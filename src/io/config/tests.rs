@@ -16,6 +16,10 @@ fn message(text: &str) -> String {
 fn wrong_input_names_the_key_with_its_table() {
     for (text, start) in [
         (r#"{"latitude": 91}"#, "latitude = 91: must be a number from -90 to 90 degrees"),
+        (r#"{"place": "Qqqxx"}"#, r#"place = "Qqqxx": must be the name of a town"#),
+        (r#"{"place": "95, 13"}"#, "latitude = 95: must be a number from -90 to 90 degrees"),
+        (r#"{"place": "Lund", "latitude": 3}"#, r#"place = "Lund": must be left out where latitude"#),
+        (r#"{"place": 3}"#, "place = 3: must be a text in quotes"),
         (r#"{"latitude": "north"}"#, r#"latitude = "north": must be a number"#),
         (r#"{"time": "yesterday"}"#, r#"time = "yesterday": must be "#),
         (r#"{"zone": "Mars/Olympus", "time": "2005-06-21T13:00"}"#, r#"zone = "Mars/Olympus": must be "#),
@@ -62,6 +66,17 @@ fn an_empty_configuration_is_the_default_and_says_what_is_missing() {
     let config = Config::from_json("{}").unwrap();
     assert_eq!(config, Config::default());
     assert!(config.place().unwrap_err().to_string().starts_with("latitude = nothing: must be given"));
+}
+
+#[test]
+fn a_place_is_read_by_its_name_and_written_as_numbers() {
+    let config = Config::from_json(r#"{"place": "lund, sweden"}"#).unwrap();
+    assert_eq!((config.latitude, config.longitude, config.elevation_m), (Some(55.706), Some(13.193), 51.0));
+    assert_eq!(config.place_label.as_deref(), Some("Lund, Skåne, Sweden"));
+    let read_back = Config::from_json(&config.to_json()).unwrap();
+    assert_eq!(read_back, Config { place_label: None, ..config });
+    let higher = Config::from_json(r#"{"place": "55 42 36 N 13 11 24 E", "elevation_m": 80}"#).unwrap();
+    assert_eq!((higher.latitude, higher.elevation_m), (Some(55.71), 80.0));
 }
 
 #[test]
