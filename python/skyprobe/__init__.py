@@ -32,6 +32,7 @@ Errors
 ``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
 """
 
+from . import places
 from ._core import (
     Atmosphere,
     Body,
@@ -74,4 +75,5 @@ __all__ = [
     "SolarEclipse",
     "SunEvents",
     "__version__",
+    "places",
 ]

@@ -10,6 +10,7 @@ mod bodies;
 mod errors;
 mod filter;
 mod night;
+mod places;
 mod probe;
 mod results;
 mod sky;
@@ -40,6 +41,18 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<results::SunEvents>()?;
     module.add_class::<results::Irradiance>()?;
     module.add_class::<results::Illuminance>()?;
+    module.add_class::<places::Place>()?;
+    module.add_class::<places::NearestPlace>()?;
+    module.add_class::<places::Location>()?;
+    module.add_class::<places::CivilTime>()?;
+    module.add_function(wrap_pyfunction!(places::search_places, module)?)?;
+    module.add_function(wrap_pyfunction!(places::nearest_place, module)?)?;
+    module.add_function(wrap_pyfunction!(places::locate_place, module)?)?;
+    module.add_function(wrap_pyfunction!(places::parse_coordinates, module)?)?;
+    module.add_function(wrap_pyfunction!(places::format_coordinates, module)?)?;
+    module.add_function(wrap_pyfunction!(places::elevation_m, module)?)?;
+    module.add_function(wrap_pyfunction!(places::zone_of_place, module)?)?;
+    module.add_function(wrap_pyfunction!(places::civil_time, module)?)?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(run_command_line, module)?)?;
     Ok(())

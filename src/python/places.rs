@@ -1,0 +1,280 @@
+//! `skyprobe.places`: names, coordinates, elevation, zones.
+
+use super::results::datetime;
+use crate::places::{self, CoordinateStyle, Coordinates, NamedPlace, PlaceKind};
+use crate::time::{self, Occurrence, ZoneChoice};
+use pyo3::prelude::*;
+
+/// A town, a village or an observatory of the gazetteer.
+#[pyclass(frozen, module = "skyprobe.places")]
+pub struct Place {
+    inner: NamedPlace,
+}
+
+#[pymethods]
+impl Place {
+    /// Its name, as GeoNames writes it.
+    #[getter]
+    fn name(&self) -> &'static str {
+        self.inner.name
+    }
+
+    /// The state, province or county that it lies in; empty where none is known.
+    #[getter]
+    fn region(&self) -> &'static str {
+        self.inner.region
+    }
+
+    /// English name of the country.
+    #[getter]
+    fn country(&self) -> &'static str {
+        self.inner.country
+    }
+
+    /// Code of the country, two letters (ISO 3166-1).
+    #[getter]
+    fn country_code(&self) -> &'static str {
+        self.inner.country_code
+    }
+
+    /// "town" (or a village, or a part of one) or "observatory".
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match self.inner.kind {
+            PlaceKind::Town => "town",
+            PlaceKind::Observatory => "observatory",
+        }
+    }
+
+    /// Geodetic latitude, positive north. [degrees]
+    #[getter]
+    fn latitude(&self) -> f64 {
+        self.inner.latitude_deg
+    }
+
+    /// Longitude, positive east. [degrees]
+    #[getter]
+    fn longitude(&self) -> f64 {
+        self.inner.longitude_deg
+    }
+
+    /// Height above the sea. [m]
+    #[getter]
+    fn elevation_m(&self) -> f64 {
+        self.inner.elevation_m
+    }
+
+    /// Inhabitants, to two digits; None if unknown.
+    #[getter]
+    fn population(&self) -> Option<u32> {
+        self.inner.population
+    }
+
+    /// IANA time zone that GeoNames states.
+    #[getter]
+    fn time_zone(&self) -> &'static str {
+        self.inner.time_zone
+    }
+
+    /// Name, region and country, such as "Lund, Skåne, Sweden".
+    #[getter]
+    fn label(&self) -> String {
+        self.inner.label()
+    }
+
+    fn __repr__(&self) -> String {
+        let NamedPlace { latitude_deg, longitude_deg, elevation_m, .. } = self.inner;
+        format!("<Place {}: {latitude_deg:.3}, {longitude_deg:.3}, {elevation_m:.0} m>", self.inner.label())
+    }
+}
+
+/// The place nearest to coordinates, and where they are seen from it.
+#[pyclass(frozen, module = "skyprobe.places")]
+pub struct NearestPlace {
+    inner: places::Nearest,
+}
+
+#[pymethods]
+impl NearestPlace {
+    /// The place.
+    #[getter]
+    fn place(&self) -> Place {
+        Place { inner: self.inner.place }
+    }
+
+    /// From the place to the coordinates, along the ground. [km]
+    #[getter]
+    fn distance_km(&self) -> f64 {
+        self.inner.distance_km
+    }
+
+    /// Direction from the place to the coordinates, from north through east. [degrees]
+    #[getter]
+    fn azimuth_deg(&self) -> f64 {
+        self.inner.azimuth_deg
+    }
+
+    /// Such as "12 km N of Lund, Skåne, Sweden"; the place alone within 2 km of it.
+    #[getter]
+    fn label(&self) -> String {
+        self.inner.label()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<NearestPlace {}>", self.inner.label())
+    }
+}
+
+/// Where a text says to be: a name that was found, or coordinates that were read.
+#[pyclass(frozen, module = "skyprobe.places")]
+pub struct Location {
+    inner: places::Location,
+}
+
+#[pymethods]
+impl Location {
+    /// Geodetic latitude, positive north. [degrees]
+    #[getter]
+    fn latitude(&self) -> f64 {
+        self.inner.latitude_deg
+    }
+
+    /// Longitude, positive east. [degrees]
+    #[getter]
+    fn longitude(&self) -> f64 {
+        self.inner.longitude_deg
+    }
+
+    /// Height above the sea: of the place that was named, or roughly of the land at coordinates. [m]
+    #[getter]
+    fn elevation_m(&self) -> f64 {
+        self.inner.elevation_m
+    }
+
+    /// The place that was named; None for coordinates.
+    #[getter]
+    fn place(&self) -> Option<Place> {
+        self.inner.place.map(|inner| Place { inner })
+    }
+
+    /// What to call it: "Lund, Skåne, Sweden", or "12 km N of Lund, Skåne, Sweden".
+    #[getter]
+    fn label(&self) -> String {
+        self.inner.label.clone()
+    }
+
+    fn __repr__(&self) -> String {
+        let places::Location { latitude_deg, longitude_deg, elevation_m, label, .. } = &self.inner;
+        format!("<Location {label}: {latitude_deg:.5}, {longitude_deg:.5}, {elevation_m:.0} m>")
+    }
+}
+
+/// A time as the clocks of a place show it.
+#[pyclass(frozen, module = "skyprobe.places")]
+pub struct CivilTime {
+    inner: time::CivilTime,
+}
+
+#[pymethods]
+impl CivilTime {
+    /// The instant, aware of its offset.
+    #[getter]
+    fn time<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        datetime(py, &self.inner.time)
+    }
+
+    /// IANA name of the zone; None for a fixed offset.
+    #[getter]
+    fn zone(&self) -> Option<&str> {
+        self.inner.time.zone_name()
+    }
+
+    /// Local time minus UTC. [h]
+    #[getter]
+    fn utc_offset_h(&self) -> f64 {
+        f64::from(self.inner.time.utc_offset_s()) / 3600.0
+    }
+
+    /// What the offset is called, such as "CEST", or "+03" where it has no name.
+    #[getter]
+    fn abbreviation(&self) -> &str {
+        &self.inner.abbreviation
+    }
+
+    /// Whether clocks are set forward for the summer.
+    #[getter]
+    fn daylight_saving(&self) -> bool {
+        self.inner.daylight_saving
+    }
+
+    /// How often clocks show the local time that was given: "once"; "repeated" (clocks are set back: the first is taken); "skipped" (clocks are set forward:
+    /// the time as far after the gap is taken).
+    #[getter]
+    fn occurrence(&self) -> &'static str {
+        match self.inner.occurrence {
+            Occurrence::Once => "once",
+            Occurrence::Repeated => "repeated",
+            Occurrence::Skipped => "skipped",
+        }
+    }
+
+    fn __repr__(&self) -> String {
+        let time::CivilTime { time, abbreviation, .. } = &self.inner;
+        format!("<CivilTime {time} {abbreviation}>")
+    }
+}
+
+/// Places whose name, or another name, matches `text`, the best first.
+#[pyfunction]
+#[pyo3(signature = (text, limit = 10))]
+pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
+    // The first question unpacks the gazetteer: a host may ask it in a thread of its own.
+    py.detach(|| places::search(text, limit)).into_iter().map(|inner| Place { inner }).collect()
+}
+
+/// The place nearest to coordinates.
+#[pyfunction]
+pub fn nearest_place(latitude: f64, longitude: f64) -> PyResult<NearestPlace> {
+    Ok(NearestPlace { inner: places::nearest(latitude, longitude)? })
+}
+
+/// The place that `text` means: coordinates in any spelling, or the best match of a name.
+#[pyfunction]
+pub fn locate_place(text: &str) -> PyResult<Location> {
+    Ok(Location { inner: places::locate(text)? })
+}
+
+/// Latitude and longitude that `text` says in any of the usual spellings.
+#[pyfunction]
+pub fn parse_coordinates(text: &str) -> PyResult<(f64, f64)> {
+    let Coordinates { latitude_deg, longitude_deg } = Coordinates::parse(text)?;
+    Ok((latitude_deg, longitude_deg))
+}
+
+/// Coordinates as text.
+#[pyfunction]
+#[pyo3(signature = (latitude, longitude, style = "decimal"))]
+pub fn format_coordinates(latitude: f64, longitude: f64, style: &str) -> PyResult<String> {
+    Ok(Coordinates::new(latitude, longitude)?.format(style.parse::<CoordinateStyle>()?))
+}
+
+/// Rough height of the land above the sea.
+#[pyfunction]
+pub fn elevation_m(latitude: f64, longitude: f64) -> PyResult<f64> {
+    Ok(places::elevation_m(latitude, longitude)?)
+}
+
+/// IANA name of the zone that is kept today at coordinates.
+#[pyfunction]
+pub fn zone_of_place(latitude: f64, longitude: f64) -> PyResult<&'static str> {
+    Ok(time::zone_of_place(latitude, longitude)?)
+}
+
+/// A time as the clocks of a place show it.
+#[pyfunction]
+#[pyo3(signature = (time, latitude, longitude, zone = None))]
+pub fn civil_time(time: &str, latitude: f64, longitude: f64, zone: Option<&str>) -> PyResult<CivilTime> {
+    Coordinates::new(latitude, longitude)?;
+    let choice = zone.map_or(ZoneChoice::OfPlace { latitude_deg: latitude, longitude_deg: longitude }, ZoneChoice::Named);
+    Ok(CivilTime { inner: time::CivilTime::parse(time, choice)? })
+}
