@@ -26,7 +26,7 @@ def test_ten_times_off_and_on_leaves_nothing_behind(host):
         assert state == clean, f"after time {number + 1}"
     for number, state in enumerate(answer["on"]):
         assert state == used, f"time {number + 1}"
-    assert answer["rendered"] == 10
+    assert answer["rendered"] == 2
 
 
 def test_it_is_off_in_a_file_that_was_lit_and_the_light_stays(host, tmp_path):
