@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the installable extension: this folder and the skyprobe wheel in one zip.
+"""Make the installable extension: this folder and the skyprobe wheel in one zip, for each platform.
 
-    python blender_addon/build.py [WHEEL]
+    python blender_addon/build.py [WHEEL...]
 
-WHEEL is a skyprobe wheel for Python 3.11 or later (abi3); without it, the only one in dist/ is taken. The result is
+A WHEEL is a skyprobe wheel for Python 3.11 or later (abi3) and one platform; without it, the only one in dist/ is taken. The results are
 dist/skyprobe-VERSION-PLATFORM.zip, checked by Blender's own extension tool where a bpy package is found: in this Python, or in a
-virtual environment .venv-bpy* of the checkout. Needs nothing but the standard library.
+virtual environment .venv-bpy* of the checkout. Needs nothing but the standard library. docs/packaging.md explains the rest.
 """
 
 import argparse
@@ -31,6 +31,9 @@ PLATFORMS = {
     r"win_amd64": "windows-x64",
     r"win_arm64": "windows-arm64",
 }
+
+# What the extension consists of, by the ending of names; whatever else lies about in the folder stays out.
+ENDINGS = {".py", ".json", ".png", ".svg"}
 
 
 class BuildError(Exception):
@@ -72,8 +75,8 @@ def write_zip(target, wheel, manifest):
     """Write the extension to `target`, the same bytes for the same input."""
     content = {"blender_manifest.toml": manifest.encode(), f"wheels/{wheel.name}": wheel.read_bytes()}
     content["LICENSE"] = (ADDON / "LICENSE").read_bytes()
-    for source in (*ADDON.rglob("*.py"), *ADDON.glob("presets/*.json")):
-        if source != Path(__file__).resolve():
+    for source in ADDON.rglob("*"):
+        if source.suffix in ENDINGS and source != Path(__file__).resolve():
             content[source.relative_to(ADDON).as_posix()] = source.read_bytes()
     with zipfile.ZipFile(target, "w") as archive:
         for name in sorted(content):
@@ -81,6 +84,16 @@ def write_zip(target, wheel, manifest):
             entry = zipfile.ZipInfo(name)
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, content[name], zipfile.ZIP_DEFLATED)
+
+
+def refuse_two_of_a_platform(wheels):
+    """Make sure that no zip would take the place of another."""
+    seen = {}
+    for wheel in wheels:
+        _, platform = read_wheel_name(wheel)
+        if platform in seen:
+            raise BuildError(f"{seen[platform].name} and {wheel.name} are both for {platform}: name one")
+        seen[platform] = wheel
 
 
 def find_validator():
@@ -120,15 +133,18 @@ def build(wheel, target_folder):
 
 def main():
     parser = argparse.ArgumentParser(description="Make the installable Blender extension of skyprobe.")
-    parser.add_argument("wheel", nargs="?", type=Path, help="the skyprobe wheel to bundle (default: the one in dist/)")
+    parser.add_argument("wheels", nargs="*", type=Path, help="the skyprobe wheels to bundle, one a platform (default: the one in dist/)")
     parser.add_argument("--output", type=Path, default=DIST, help="folder for the zip (default: dist/)")
     arguments = parser.parse_args()
     try:
-        target, validated = build(arguments.wheel or find_wheel(), arguments.output)
+        wheels = arguments.wheels or [find_wheel()]
+        refuse_two_of_a_platform(wheels)
+        for wheel in wheels:
+            target, validated = build(wheel, arguments.output)
+            print(f"{target} ({'valid by Blender' if validated else 'not validated: no bpy found'})")
     except (BuildError, OSError) as error:
         print(f"build: {error}", file=sys.stderr)
         return 2
-    print(f"{target} ({'valid by Blender' if validated else 'not validated: no bpy found'})")
     return 0
 
 
