@@ -10,6 +10,7 @@ mod bodies;
 mod errors;
 mod filter;
 mod night;
+mod post;
 mod probe;
 mod results;
 mod sky;
@@ -40,6 +41,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<results::SunEvents>()?;
     module.add_class::<results::Irradiance>()?;
     module.add_class::<results::Illuminance>()?;
+    module.add_class::<post::Report>()?;
+    module.add_function(wrap_pyfunction!(post::glare, module)?)?;
+    module.add_function(wrap_pyfunction!(post::point_spread_function, module)?)?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(run_command_line, module)?)?;
     Ok(())
