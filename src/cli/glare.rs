@@ -52,7 +52,7 @@ pub struct Options {
     /// Number that draws the streaks. Default: 0.
     #[arg(long, value_name = "N", help_heading = GLARE)]
     seed: Option<u64>,
-    /// Contrast of the streaks, 0 (none) to 1. Default: 1.
+    /// Contrast of the streaks, 0 (none) to 1 (lines on black, as in the thesis). Default: 0.6.
     #[arg(long, value_name = "CONTRAST", help_heading = GLARE)]
     streaks: Option<f64>,
     #[command(flatten)]

@@ -104,7 +104,7 @@ pub fn picture(
 #[pyfunction]
 #[pyo3(signature = (pixels, *, projection = "perspective", field_of_view_deg = None, rows = "centre", white_luminance = 683.0,
     color_space = "lin_rec709", state = "auto", threshold = None, whole_pixels = false, all_light = false, size = 2.0, seed = 0,
-    streaks = 1.0, progress = None))]
+    streaks = 0.6, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 pub fn glare<'py>(
     py: Python<'py>,

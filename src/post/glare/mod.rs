@@ -62,13 +62,13 @@ pub struct GlareOptions {
     pub size: f64,
     /// Draws the streaks.
     pub seed: u64,
-    /// Contrast of the streaks, 0 (a smooth corona) to 1 (as in the thesis).
+    /// Contrast of the streaks, 0 (a smooth corona) to 1 (lines on black, as in the thesis).
     pub streaks: f64,
 }
 
 impl Default for GlareOptions {
     fn default() -> Self {
-        Self { state: None, glaring: Glaring::default(), size: 2.0, seed: 0, streaks: 1.0 }
+        Self { state: None, glaring: Glaring::default(), size: 2.0, seed: 0, streaks: 0.6 }
     }
 }
 
@@ -156,8 +156,8 @@ impl Kernel for PlanarKernel<'_> {
         Self::unscattered(self)
     }
 
-    fn is_coloured(&self) -> bool {
-        self.is_coloured()
+    fn coloured_within(&self) -> f64 {
+        Self::coloured_within(self)
     }
 }
 

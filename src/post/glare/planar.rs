@@ -43,9 +43,15 @@ impl<'a> PlanarKernel<'a> {
         Some(Self { scatter, scale })
     }
 
-    /// Whether channels differ.
-    pub fn is_coloured(&self) -> bool {
-        self.scatter.has_halo()
+    /// Distance [pixels] beyond which channels are the same; 0 if they are everywhere.
+    pub fn coloured_within(&self) -> f64 {
+        let angle = super::halo::END_DEG.to_radians();
+        let distance = match self.scale {
+            Scale::Perspective { focal_length } => f64::from(focal_length) * angle.tan(),
+            Scale::Fisheye { step } => angle / f64::from(step),
+        };
+        // A pixel of the border has parts inside.
+        if self.scatter.has_halo() { 1.01 * distance + 2.0 } else { 0.0 }
     }
 
     /// Size of a pixel in the centre [radians].

@@ -8,10 +8,10 @@
 use std::f32::consts::TAU;
 
 /// Lines of a picture.
-pub const LINES: usize = 260;
+pub const LINES: usize = 400;
 
 /// Least and greatest standard deviation of a line's profile in position angle [degrees].
-pub const WIDTHS_DEG: (f64, f64) = (0.12, 0.55);
+pub const WIDTHS_DEG: (f64, f64) = (0.1, 0.4);
 
 const STEPS: usize = 8192;
 
