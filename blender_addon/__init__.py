@@ -7,9 +7,9 @@
 Conventions: +X east, +Y north (until the user turns north), +Z up.
 """
 
-from . import operators, panels, properties
+from . import finish, operators, panels, properties
 
-MODULES = (properties, operators, panels)
+MODULES = (properties, operators, panels, finish)
 
 
 def register():
