@@ -29,8 +29,8 @@ struct Found {
 /// [`Error::File`] for a file that is damaged or cut short; [`Error::Data`] if it has no such channels.
 pub fn read_rgb(path: &Path) -> Result<Raw> {
     let failed = |error: ::exr::error::Error| Error::file(path, format!("not a sound OpenEXR file ({error})"));
-    check_size(path, &MetaData::read_from_file(path, false).map_err(failed)?)?;
     let file = std::fs::File::open(path).map_err(|error| Error::file(path, error))?;
+    check_size(path, &MetaData::read_from_file(path, false).map_err(failed)?)?;
     let reader = ::exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
     let image = reader.from_buffered(BufReader::new(file)).map_err(failed)?;
 

@@ -62,10 +62,10 @@ impl Scatter {
     /// range of position angles of `width` [radians].
     #[inline]
     pub fn at(&self, chord_squared: f32, position: (f32, f32), width: f32) -> [f32; 3] {
-        let [white, red, green, blue] = self.look_up(chord_squared);
         let Some([corona, halo]) = &self.streaks else {
-            return self.in_gamut([white + red, white + green, white + blue]);
+            return self.smooth(chord_squared);
         };
+        let [white, red, green, blue] = self.look_up(chord_squared);
         let angle = atan2(position.0, position.1);
         let white = white * corona.mean(angle, width);
         if !self.is_coloured(chord_squared) {
@@ -73,6 +73,13 @@ impl Scatter {
         }
         let ring = halo.mean(angle, width);
         self.in_gamut([white + ring * red, white + ring * green, white + ring * blue])
+    }
+
+    /// The same without streaks: the mean around the source.
+    #[inline]
+    pub fn smooth(&self, chord_squared: f32) -> [f32; 3] {
+        let [white, red, green, blue] = self.look_up(chord_squared);
+        self.in_gamut([white + red, white + green, white + blue])
     }
 
     #[inline]

@@ -9,7 +9,9 @@
 //! series; nothing wraps where it should not, and nothing is stretched. The unscattered light stays in its pixel, 1 - (sum of P omega(t) over all other light): that keeps the energy of each
 //! pixel exactly. The part of it that eq. 11 puts outside a pixel is neglected; it is below 1 % down to pixels of 0.05 degrees and matters from 0.02 degrees on (16384 columns).
 //!
-//! The cost is rows with glaring pixels x rows x columns: seconds for a Sun in 4096 x 2048, a minute where every row glares.
+//! Streaks belong to points: a source that is extended blurs its own. So pixels with less than [`STREAKED_FROM`] of the light of the brightest scatter by the mean around the source. That kernel
+//! is even and, d rows away, smooth over d rows: d / 12 columns are one sample of it, which leaves out nothing above 1e-12 of its Fourier series. That makes a smooth sky cheap: the cost is
+//! (rows with streaks x rows + 150 x rows that glare) x columns, see `docs/finish.md`.
 
 use super::scatter::Scatter;
 use crate::error::{Error, Result};
@@ -19,10 +21,16 @@ use crate::progress::Progress;
 use rayon::prelude::*;
 use realfft::{RealFftPlanner, RealToComplex, num_complex::Complex};
 use std::f64::consts::PI;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What lies closer than this many pixels is averaged over the area of its pixel.
 const AVERAGED_WITHIN: f32 = 12.0;
+
+/// Pixels with this share of the light of the brightest pixel have streaks.
+pub const STREAKED_FROM: f64 = 1e-3;
+
+/// Samples of a smooth kernel per distance from its source.
+const SAMPLES_PER_DISTANCE: f64 = 12.0;
 
 /// The geometry of a latitude-longitude picture.
 ///
@@ -40,9 +48,10 @@ pub fn geometry(width: usize, height: usize, rows: Rows) -> Result<LatLong> {
     Ok(LatLong::new(width, rows, extent))
 }
 
-/// A row with light that glares: its spectrum by channel.
+/// Light of a row that glares: its spectrum by channel.
 struct Source {
     row: usize,
+    has_streaks: bool,
     spectra: [Vec<Complex<f64>>; 3],
 }
 
@@ -59,7 +68,10 @@ struct Sphere<'a> {
     step: f64,
     /// sin^2 of half of the difference in azimuth, and its sine, by difference of columns.
     turns: Vec<(f32, f32)>,
-    forward: std::sync::Arc<dyn RealToComplex<f64>>,
+    /// Transforms of a row, of half a row and so on.
+    forward: Vec<Arc<dyn RealToComplex<f64>>>,
+    /// Light of a pixel from which on it has streaks.
+    streaked_from: f64,
 }
 
 /// Spreads the part `share` of each pixel of `picture`. Returns the mean share, over the light, of each channel that was not scattered.
@@ -74,8 +86,14 @@ pub fn apply(picture: &mut Picture, share: &[f32], scatter: &Scatter, progress: 
     let image = geometry(width, height, rows)?;
     let column = |k: usize| PI * k as f64 / width as f64;
     let turns = (0..width).map(|k| (column(k).sin().powi(2) as f32, (2.0 * column(k)).sin() as f32)).collect();
-    let forward = RealFftPlanner::<f64>::new().plan_fft_forward(width);
-    let sphere = Sphere { scatter, width, step: image.step(), turns, forward };
+    let mut planner = RealFftPlanner::<f64>::new();
+    let halvings = width.trailing_zeros().min((width / 8).max(1).ilog2());
+    let forward = (0..=halvings).map(|k| planner.plan_fft_forward(width >> k)).collect();
+    let brightest =
+        (0..picture.pixels.len() / 3).into_par_iter().map(|k| light(picture, share, image.table(), k)).reduce(|| 0.0, f64::max);
+    // Without streaks every pixel is smooth.
+    let streaked_from = if scatter.has_streaks() { STREAKED_FROM * brightest } else { f64::INFINITY };
+    let sphere = Sphere { scatter, width, step: image.step(), turns, forward, streaked_from };
     let sources = sphere.sources(picture, share, image.table());
     if sources.is_empty() {
         return Ok([1.0; 3]);
@@ -101,48 +119,67 @@ pub fn apply(picture: &mut Picture, share: &[f32], scatter: &Scatter, progress: 
     let floor = if picture.pixels.par_iter().all(|&value| value >= 0.0) { 0.0 } else { f32::MIN };
     let lost = lost.into_inner().unwrap_or_else(PoisonError::into_inner);
 
-    let mut kept = vec![[1.0; 3]; height];
-    sources.iter().zip(&lost).for_each(|(source, lost)| kept[source.row] = lost.map(|lost| 1.0 - lost));
+    // By row, for smooth light and for light with streaks.
+    let mut kept = vec![[[1.0; 3]; 2]; height];
+    for (source, lost) in sources.iter().zip(&lost) {
+        kept[source.row][usize::from(source.has_streaks)] = lost.map(|lost| 1.0 - lost);
+    }
     let (mut unscattered, mut total) = ([0.0; 3], [0.0; 3]);
     for source in &sources {
         for c in 0..3 {
             let light = source.spectra[c][0].re;
-            unscattered[c] += light * kept[source.row][c];
+            unscattered[c] += light * kept[source.row][usize::from(source.has_streaks)][c];
             total[c] += light;
         }
     }
-    picture.pixels.par_chunks_mut(3 * width).zip(share.par_chunks(width)).zip(scattered.par_iter().zip(&kept)).for_each(
-        |((pixels, share), (scattered, kept))| {
-            for (k, value) in pixels.iter_mut().enumerate() {
-                let share = f64::from(share[k / 3]);
-                *value = (f64::from(*value) * (1.0 - share + share * kept[k % 3]) + f64::from(scattered[k].max(floor))) as f32;
-            }
-        },
-    );
+    let has_streaks: Vec<bool> =
+        (0..width * height).into_par_iter().map(|k| light(picture, share, image.table(), k) >= sphere.streaked_from).collect();
+    let rows = picture.pixels.par_chunks_mut(3 * width).zip(share.par_chunks(width)).zip(has_streaks.par_chunks(width));
+    rows.zip(scattered.par_iter().zip(&kept)).for_each(|(((pixels, share), has_streaks), (scattered, kept))| {
+        for (k, value) in pixels.iter_mut().enumerate() {
+            let share = f64::from(share[k / 3]);
+            let kept = kept[usize::from(has_streaks[k / 3])][k % 3];
+            *value = (f64::from(*value) * (1.0 - share + share * kept) + f64::from(scattered[k].max(floor))) as f32;
+        }
+    });
     Ok(std::array::from_fn(|c| if total[c] > 0.0 { unscattered[c] / total[c] } else { 1.0 }))
+}
+
+/// Light of pixel `k` that glares: the sum of the magnitudes of its channels times its solid angle.
+fn light(picture: &Picture, share: &[f32], table: &[Row], k: usize) -> f64 {
+    let sum: f64 = picture.pixels[3 * k..3 * k + 3].iter().map(|value| f64::from(value.abs())).sum();
+    f64::from(share[k]) * table[k / picture.width].solid_angle * sum
 }
 
 impl Sphere<'_> {
     fn sources(&self, picture: &Picture, share: &[f32], table: &[Row]) -> Vec<Source> {
-        let row_source = |(row, (pixels, share)): (usize, (&[f32], &[f32]))| {
-            if share.iter().all(|&share| share == 0.0) {
-                return None;
-            }
-            let spectra = std::array::from_fn(|channel| {
-                let mut line: Vec<f64> = pixels[channel..].iter().step_by(3).map(|&value| f64::from(value)).collect();
-                line.iter_mut().zip(share).for_each(|(value, &share)| *value *= f64::from(share) * table[row].solid_angle);
-                self.spectrum(&mut line)
-            });
-            Some(Source { row, spectra })
+        let row_sources = |row: usize| -> Vec<Source> {
+            let range = row * self.width..(row + 1) * self.width;
+            let of_kind = |has_streaks: bool| {
+                let is_in = |k: usize| share[k] > 0.0 && (light(picture, share, table, k) >= self.streaked_from) == has_streaks;
+                let chosen: Vec<bool> = range.clone().map(is_in).collect();
+                if !chosen.contains(&true) {
+                    return None;
+                }
+                let spectra = std::array::from_fn(|channel| {
+                    let value = |(k, &chosen): (usize, &bool)| {
+                        let part = f64::from(share[k]) * table[row].solid_angle;
+                        if chosen { part * f64::from(picture.pixels[3 * k + channel]) } else { 0.0 }
+                    };
+                    let mut line: Vec<f64> = range.clone().zip(&chosen).map(value).collect();
+                    self.spectrum(&mut line)
+                });
+                Some(Source { row, has_streaks, spectra })
+            };
+            [false, true].into_iter().filter_map(of_kind).collect()
         };
-        let rows = picture.pixels.par_chunks(3 * self.width).zip(share.par_chunks(self.width)).enumerate();
-        rows.filter_map(row_source).collect()
+        (0..picture.height).into_par_iter().flat_map_iter(row_sources).collect()
     }
 
     fn spectrum(&self, line: &mut [f64]) -> Vec<Complex<f64>> {
-        let mut spectrum = self.forward.make_output_vec();
+        let mut spectrum = self.forward[0].make_output_vec();
         // Lengths are those of the plan.
-        let _ = self.forward.process(line, &mut spectrum);
+        let _ = self.forward[0].process(line, &mut spectrum);
         spectrum
     }
 
@@ -152,12 +189,18 @@ impl Sphere<'_> {
         let mut sums = Vec::with_capacity(sources.len());
         let mut arriving = vec![[Complex::<f64>::default(); 3]; frequencies];
         let mut kernels: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; self.width]);
-        let mut spectra: [Vec<Complex<f64>>; 3] = std::array::from_fn(|_| self.forward.make_output_vec());
-        let mut scratch = self.forward.make_scratch_vec();
+        let mut spectra: [Vec<Complex<f64>>; 3] = std::array::from_fn(|_| self.forward[0].make_output_vec());
+        let mut scratch = self.forward[0].make_scratch_vec();
         for source in sources {
-            let coloured = self.fill(&table[source.row], &target.row, &mut kernels);
+            let (halvings, coloured) = if source.has_streaks {
+                (0, self.fill(&table[source.row], &target.row, &mut kernels))
+            } else {
+                self.fill_smooth(&table[source.row], &target.row, &mut kernels)
+            };
             let count = if coloured { 3 } else { 1 };
-            let sum: [f64; 3] = std::array::from_fn(|c| if c < count { kernels[c].iter().sum() } else { 0.0 });
+            let (samples, share) = (self.width >> halvings, (1 << halvings) as f64);
+            let sum: [f64; 3] =
+                std::array::from_fn(|c| if c < count { share * kernels[c][..samples].iter().sum::<f64>() } else { 0.0 });
             let sum = if coloured { sum } else { [sum[0]; 3] };
             sums.push(sum.map(|sum| sum * target.row.solid_angle));
             if target.index.is_none() {
@@ -165,12 +208,16 @@ impl Sphere<'_> {
             }
             for (kernel, spectrum) in kernels.iter_mut().zip(&mut spectra).take(count) {
                 // Lengths are those of the plan.
-                let _ = self.forward.process_with_scratch(kernel, spectrum, &mut scratch);
+                let _ = self.forward[halvings].process_with_scratch(
+                    &mut kernel[..samples],
+                    &mut spectrum[..samples / 2 + 1],
+                    &mut scratch,
+                );
             }
             let of = |c: usize| if coloured { c } else { 0 };
             for c in 0..3 {
-                let pairs = spectra[of(c)].iter().zip(&source.spectra[c]);
-                arriving.iter_mut().zip(pairs).for_each(|(sum, (kernel, light))| sum[c] += kernel * light);
+                let pairs = spectra[of(c)][..samples / 2 + 1].iter().zip(&source.spectra[c]);
+                arriving.iter_mut().zip(pairs).for_each(|(sum, (kernel, light))| sum[c] += kernel * (light * share));
             }
         }
         if target.index.is_none() {
@@ -208,7 +255,7 @@ impl Sphere<'_> {
         for (k, &turn) in self.turns.iter().enumerate() {
             let chord_squared = pair.chord_squared(turn);
             let value = if may_be_near && chord_squared < near {
-                self.mean(source, target, k, chord_squared, (across, along))
+                self.mean(source, target, k, (chord_squared, true), (across, along))
             } else {
                 self.scatter.at(chord_squared, pair.position(turn), size / chord_squared.sqrt())
             };
@@ -221,8 +268,43 @@ impl Sphere<'_> {
         coloured
     }
 
-    /// Mean over the pixel of the target, whose sides are `sides` (across rows, along the row) [radians].
-    fn mean(&self, source: &Row, target: &Row, difference: usize, chord_squared: f32, sides: (f32, f32)) -> [f32; 3] {
+    /// The kernel without streaks, in every 2^n-th column only, and n: where it is that smooth.
+    fn fill_smooth(&self, source: &Row, target: &Row, kernels: &mut [Vec<f64>; 3]) -> (usize, bool) {
+        let difference = (target.theta - source.theta).abs();
+        let pair = Pair::new(source.theta, target.theta);
+        let coloured = self.scatter.is_coloured(pair.chord_squared);
+        let columns = difference / self.step / SAMPLES_PER_DISTANCE;
+        let halvings = if coloured || columns < 2.0 { 0 } else { (columns.log2() as usize).min(self.forward.len() - 1) };
+        let (across, along) = (self.step as f32, (2.0 * PI / self.width as f64 * target.theta.sin()) as f32);
+        let may_be_near = difference < 2.0 * f64::from(AVERAGED_WITHIN) * self.step;
+        let near = (AVERAGED_WITHIN * across.max(along)).powi(2);
+        let samples = self.width >> halvings;
+        for k in 0..=samples / 2 {
+            let column = k << halvings;
+            let chord_squared = pair.chord_squared(self.turns[column]);
+            let value = if may_be_near && chord_squared < near {
+                self.mean(source, target, column, (chord_squared, false), (across, along))
+            } else {
+                self.scatter.smooth(chord_squared)
+            };
+            for (kernel, value) in kernels.iter_mut().zip(value).take(if coloured { 3 } else { 1 }) {
+                kernel[k] = f64::from(value);
+                // The same to the other side.
+                kernel[(samples - k) % samples] = f64::from(value);
+            }
+        }
+        (halvings, coloured)
+    }
+
+    /// Mean over the pixel of the target, with or without streaks, whose sides are `sides` (across rows, along the row) [radians].
+    fn mean(
+        &self,
+        source: &Row,
+        target: &Row,
+        difference: usize,
+        (chord_squared, has_streaks): (f32, bool),
+        sides: (f32, f32),
+    ) -> [f32; 3] {
         let distance = chord_squared.sqrt().max(0.5 * sides.0.min(sides.1)).max(1e-9);
         let parts = |side: f32| ((AVERAGED_WITHIN * side / distance).ceil() as usize).clamp(1, 24);
         let (rows, columns) = (parts(sides.0), parts(sides.1));
@@ -236,7 +318,11 @@ impl Sphere<'_> {
                 let half = PI / self.width as f64 * (difference as f64 + (j as f64 + 0.5) / columns as f64 - 0.5);
                 let turn = (half.sin().powi(2) as f32, (2.0 * half).sin() as f32);
                 let chord_squared = pair.chord_squared(turn);
-                let value = self.scatter.at(chord_squared, pair.position(turn), size / chord_squared.sqrt().max(1e-9));
+                let value = if has_streaks {
+                    self.scatter.at(chord_squared, pair.position(turn), size / chord_squared.sqrt().max(1e-9))
+                } else {
+                    self.scatter.smooth(chord_squared)
+                };
                 (0..3).for_each(|c| sum[c] += weight * value[c]);
                 total += weight;
             }

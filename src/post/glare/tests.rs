@@ -168,6 +168,30 @@ fn a_source_on_a_probe_has_the_point_spread_function_around_it() {
 }
 
 #[test]
+fn dim_light_is_scattered_as_bright_light_but_for_its_streaks() {
+    let alone = |light: f32, options: &GlareOptions, with_sun: bool| {
+        let mut found = picture(256, 128, LATLONG);
+        put(&mut found, 70, 31, [light; 3]);
+        if with_sun {
+            put(&mut found, 200, 90, [1e9; 3]);
+        }
+        glare(&mut found, options, &Progress::silent()).unwrap();
+        found.pixels
+    };
+    let options = |streaks| GlareOptions { streaks, ..everything(AdaptationState::Scotopic) };
+    // Without streaks both take the way of smooth light, with and without a Sun; the difference to the way of streaks of no contrast is that of the decimated kernel.
+    let smooth = alone(1e5, &options(0.0), false);
+    let streaked = alone(1e5, &options(1e-9), false);
+    for (k, (smooth, streaked)) in smooth.iter().zip(&streaked).enumerate() {
+        assert!((smooth / streaked - 1.0).abs() < 1e-3, "{k}: {smooth} {streaked}");
+    }
+    let sun = alone(0.0, &options(1.0), true);
+    let both = alone(1e5, &options(1.0), true);
+    let at = 3 * (33 * 256 + 74);
+    assert!(((both[at] - sun[at]) / smooth[at] - 1.0).abs() < 1e-2, "{} {}", both[at] - sun[at], smooth[at]);
+}
+
+#[test]
 fn an_even_sky_stays_even() {
     let mut found = picture(128, 64, LATLONG);
     found.pixels.fill(10.0);
