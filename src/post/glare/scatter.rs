@@ -4,7 +4,7 @@
 
 use super::halo::{END_DEG, Halo};
 use super::psf::{self, AdaptationState};
-use super::streaks::Ring;
+use super::streaks::{FADED_CHORD_SQUARED, LAST_CHORD_SQUARED, Ring};
 use crate::spectrum::ColorSpace;
 
 /// Smallest chord squared in the table: 1e-5 degrees, where f1 is flat.
@@ -15,8 +15,8 @@ const OCTAVE_BITS: u32 = 8;
 
 /// What an eye scatters.
 pub struct Scatter {
-    /// Of white light and of the channels of the halo, weighted [sr-1].
-    table: Vec<[f32; 4]>,
+    /// Of white light and of the channels of the halo, weighted [sr-1]; what is left of streaks.
+    table: Vec<[f32; 5]>,
     has_halo: bool,
     streaks: Option<[Ring; 2]>,
     /// Luminance of the channels; none in a space without a gamut.
@@ -34,7 +34,8 @@ impl Scatter {
             let chord = f64::from(f32::from_bits(key << (23 - OCTAVE_BITS))).sqrt();
             let angle = (2.0 * (0.5 * chord).min(1.0).asin()).to_degrees();
             let [red, green, blue] = halo.at(angle).map(|value| (w3 * value) as f32);
-            [(w1 * psf::corona(angle) + w2 * psf::veil(angle)) as f32, red, green, blue]
+            let white = (w1 * psf::corona(angle) + w2 * psf::veil(angle)) as f32;
+            [white, red, green, blue, (-chord * chord / FADED_CHORD_SQUARED).exp() as f32]
         };
         let table = (first..=last + 1).map(entry).collect();
         let streaks = (contrast > 0.0).then(|| [Ring::new(seed, contrast), Ring::new(!seed, contrast)]);
@@ -62,12 +63,12 @@ impl Scatter {
     /// range of position angles of `width` [radians].
     #[inline]
     pub fn at(&self, chord_squared: f32, position: (f32, f32), width: f32) -> [f32; 3] {
-        let Some([corona, halo]) = &self.streaks else {
+        let Some([corona, halo]) = self.streaks.as_ref().filter(|_| chord_squared < LAST_CHORD_SQUARED) else {
             return self.smooth(chord_squared);
         };
-        let [white, red, green, blue] = self.look_up(chord_squared);
+        let [white, red, green, blue, left] = self.look_up(chord_squared);
         let angle = atan2(position.0, position.1);
-        let white = white * corona.mean(angle, width);
+        let white = white * (1.0 + left * (corona.mean(angle, width) - 1.0));
         if !self.is_coloured(chord_squared) {
             return [white; 3];
         }
@@ -78,12 +79,12 @@ impl Scatter {
     /// The same without streaks: the mean around the source.
     #[inline]
     pub fn smooth(&self, chord_squared: f32) -> [f32; 3] {
-        let [white, red, green, blue] = self.look_up(chord_squared);
+        let [white, red, green, blue, _] = self.look_up(chord_squared);
         self.in_gamut([white + red, white + green, white + blue])
     }
 
     #[inline]
-    fn look_up(&self, chord_squared: f32) -> [f32; 4] {
+    fn look_up(&self, chord_squared: f32) -> [f32; 5] {
         const SHIFT: u32 = 23 - OCTAVE_BITS;
         let bits = chord_squared.clamp(SMALLEST, 4.0).to_bits();
         let left = ((bits >> SHIFT) - (SMALLEST.to_bits() >> SHIFT)) as usize;

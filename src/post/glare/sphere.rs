@@ -14,6 +14,7 @@
 //! (rows with streaks x rows + 150 x rows that glare) x columns, see `docs/finish.md`.
 
 use super::scatter::Scatter;
+use super::streaks::LAST_CHORD_SQUARED;
 use crate::error::{Error, Result};
 use crate::post::{Picture, View};
 use crate::probe::{Extent, LatLong, Row, Rows};
@@ -192,7 +193,8 @@ impl Sphere<'_> {
         let mut spectra: [Vec<Complex<f64>>; 3] = std::array::from_fn(|_| self.forward[0].make_output_vec());
         let mut scratch = self.forward[0].make_scratch_vec();
         for source in sources {
-            let (halvings, coloured) = if source.has_streaks {
+            let nearest = Pair::new(table[source.row].theta, target.row.theta).chord_squared;
+            let (halvings, coloured) = if source.has_streaks && nearest < LAST_CHORD_SQUARED {
                 (0, self.fill(&table[source.row], &target.row, &mut kernels))
             } else {
                 self.fill_smooth(&table[source.row], &target.row, &mut kernels)

@@ -162,7 +162,9 @@ fn a_source_on_a_probe_has_the_point_spread_function_around_it() {
             let angle = source.angle_between(there).to_degrees();
             let expected = light * (0.478 * psf::corona(angle) + 0.138 * psf::veil(angle));
             let value = f64::from(found.pixels[3 * (y * 256 + x)]);
-            assert!((value / expected - 1.0).abs() < 3e-3, "row {row}, {angle} degrees: {value} {expected}");
+            // Pixels are 1.4 degrees wide; the mean over one that is near is more than its middle.
+            let allowed = if angle < 17.0 { 1e-2 } else { 2e-4 };
+            assert!((value / expected - 1.0).abs() < allowed, "row {row}, {angle} degrees: {value} {expected}");
         }
     }
 }
