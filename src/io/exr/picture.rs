@@ -114,9 +114,7 @@ fn choose(layers: &[AnyLayer]) -> Option<Found> {
             let channels = match channel {
                 "R" => [of(prefix, "R"), of(prefix, "G"), of(prefix, "B")].into_iter().collect::<Option<Vec<_>>>(),
                 // Beside RY and BY it is the luminance of a coloured picture.
-                "Y" if !names.iter().any(|other| *other == format!("{name}").replace('Y', "RY")) => {
-                    of(prefix, "Y").map(|k| vec![k])
-                }
+                "Y" if !names.iter().any(|other| split(other) == (prefix, "RY")) => of(prefix, "Y").map(|k| vec![k]),
                 _ => None,
             };
             let Some(channels) = channels else { continue };

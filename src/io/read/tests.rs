@@ -55,6 +55,25 @@ fn scan_lines_tiles_halves_and_compressions_are_read() {
 }
 
 #[test]
+fn compressions_with_loss_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    for compression in [Compression::PXR24, Compression::B44, Compression::B44A, Compression::DWAA(None), Compression::DWAB(None)]
+    {
+        let channels = list(vec![("R", halves(0.0)), ("G", halves(100.0)), ("B", halves(200.0))]);
+        let encoding = Encoding { compression, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+        write(&path, channels, encoding, None);
+        let picture = read_picture(&path, &PictureHints::default()).unwrap();
+        for (k, pixel) in picture.pixels.as_chunks::<3>().0.iter().enumerate() {
+            for (found, start) in pixel.iter().zip([0.0, 100.0, 200.0]) {
+                let value = start + k as f32 * 0.25;
+                assert!((found - value).abs() <= 0.5 + 0.05 * value, "{compression:?}: {found} {value}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_picture_among_the_channels_is_found() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.exr");
@@ -79,6 +98,8 @@ fn the_picture_among_the_channels_is_found() {
     let layer = vec![("diffuse.R", floats(5.0)), ("diffuse.G", floats(6.0)), ("diffuse.B", floats(7.0)), ("Y", floats(1.0))];
     assert_eq!(first(layer, None).unwrap(), [5.0, 6.0, 7.0]);
     assert_eq!(first(vec![("Y", halves(5.0))], None).unwrap(), [5.0; 3]);
+    let luminance_and_chroma = vec![("Y", floats(5.0)), ("RY", floats(0.1)), ("BY", floats(0.1))];
+    assert!(first(luminance_and_chroma, None).is_err());
     let message = first(vec![("Z", floats(5.0)), ("id.X", floats(1.0))], None).unwrap_err().to_string();
     assert!(message.contains("no channels R, G, B or Y among Z, id.X"), "{message}");
 }
