@@ -9,7 +9,7 @@
 events, `compat` knows what differs between Blender versions. Conventions: +X east, +Y north (until the user turns north), +Z up.
 """
 
-from . import handlers, operators, panels, presets, sequence, settings, viewport_drawing
+from . import finish, handlers, operators, panels, presets, sequence, settings, viewport_drawing
 from . import live
 
 # Read where the add-on runs from its folder, without blender_manifest.toml, which replaces it for an installed extension.
@@ -24,7 +24,7 @@ bl_info = {
 }
 
 # In the order in which they need each other.
-MODULES = (settings, operators, sequence, presets, panels, viewport_drawing, handlers)
+MODULES = (settings, operators, sequence, presets, panels, viewport_drawing, handlers, finish)
 
 
 def register():

@@ -450,3 +450,47 @@ fn places_are_listed() {
     let sydney: serde_json::Value = serde_json::from_str(&list(&["--json", "-33.87", "151.21"])).unwrap();
     assert_eq!((&sydney[0]["time_zone"], &sydney[0]["name"]), (&"Australia/Sydney".into(), &serde_json::Value::Null));
 }
+
+#[test]
+fn glare_reads_a_picture_writes_another_and_tells_what_it_did() {
+    let folder = tempfile::tempdir().unwrap();
+    let probe = [&["render"], &SUN[..], &["--width", "64", "--quality", "draft", "-o", "sky.exr", "-o", "sky.hdr"]].concat();
+    assert!(tool(folder.path(), &probe).status.success());
+    for arguments in [
+        vec!["sky.exr", "a.exr"],
+        vec!["sky.hdr", "a.hdr", "--state", "scotopic", "--all-light", "--seed", "4", "--streaks", "1"],
+    ] {
+        let run = tool(folder.path(), &[&["glare"], &arguments[..]].concat());
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let told = text(&run.stdout);
+        assert!(told.contains(&format!("{}: 64 x 32, latlong; mean luminance", arguments[1])), "{told}");
+        assert!(
+            told.contains(if arguments.len() > 2 { "scotopic; all light glares: 2048 pixels" } else { "photopic; light above" }),
+            "{told}"
+        );
+    }
+    let run = tool(
+        folder.path(),
+        &["glare", "a.exr", "b.exr", "--projection", "perspective", "--fov", "60", "--threshold", "1e4", "--whole-pixels"],
+    );
+    assert!(text(&run.stdout).contains("perspective, 60 degrees; mean"), "{}", text(&run.stderr));
+    let before = files(folder.path());
+    for (arguments, part) in [
+        (vec!["a.exr", "c.png"], "output = c.png: must be the name of a file that ends in .exr or .hdr"),
+        (vec!["a.exr", "none/c.exr"], "output = none/c.exr: must be a file that can be written"),
+        (vec!["a.jpg", "c.exr"], "input = a.jpg: must be"),
+        (vec!["a.exr", "c.exr", "--state", "day"], "state = \"day\": must be auto, photopic, mesopic or scotopic"),
+        (vec!["a.exr", "c.exr", "--size", "3"], "size = 3: must be"),
+        (vec!["a.exr", "c.exr", "--fov", "180", "--projection", "perspective"], "field_of_view_deg = 180: must be"),
+        (vec!["a.exr", "c.exr", "--threshold", "1", "--all-light"], "cannot be used with"),
+    ] {
+        let run = tool(folder.path(), &[&["glare"], &arguments[..]].concat());
+        assert_eq!(run.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&run.stderr).contains(part) && text(&run.stderr).lines().count() == 1, "{}", text(&run.stderr));
+    }
+    std::fs::write(folder.path().join("cut.exr"), &std::fs::read(folder.path().join("a.exr")).unwrap()[..900]).unwrap();
+    let run = tool(folder.path(), &["glare", "cut.exr", "c.exr"]);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(text(&run.stderr).contains("cut.exr: not a sound OpenEXR file"), "{}", text(&run.stderr));
+    assert_eq!(files(folder.path()).len(), before.len() + 1);
+}

@@ -1258,3 +1258,99 @@ def civil_time(time: str, latitude: float, longitude: float, zone: str | None = 
 
 def run_command_line(arguments: Sequence[str]) -> int:
     """Run the command line tool with `arguments`, the first being the program's name, and return its exit code."""
+
+@final
+class GlareReport:
+    """What ``glare`` did to a picture."""
+
+    @property
+    def state(self) -> str:
+        """State of the eye: photopic, mesopic or scotopic."""
+
+    @property
+    def mean_luminance(self) -> float:
+        """Geometric mean of the luminance of all pixels that have any. [cd m-2]"""
+
+    @property
+    def threshold(self) -> float | None:
+        """Luminance above which light glared; None if all light did. [cd m-2]"""
+
+    @property
+    def glaring_pixels(self) -> int:
+        """How many pixels had light that glared."""
+
+    @property
+    def too_bright(self) -> int:
+        """How many pixels were too bright to be light (above 1e12) and kept what they had."""
+
+    @property
+    def unscattered(self) -> tuple[float, float, float]:
+        """Share of the glaring light of each channel that was not scattered."""
+
+    @property
+    def repairs(self) -> tuple[int, int, int]:
+        """How many values were no light and were repaired: not a number, infinite, denormal."""
+
+def glare(
+    pixels: ArrayLike,
+    *,
+    projection: str = "perspective",
+    field_of_view_deg: float | None = None,
+    rows: str = "centre",
+    white_luminance: float = 683.0,
+    color_space: str = "lin_rec709",
+    state: str = "auto",
+    threshold: float | None = None,
+    whole_pixels: bool = False,
+    all_light: bool = False,
+    size: float = 2.0,
+    seed: int = 0,
+    streaks: float = 0.6,
+    progress: Callable[[str, float], bool | None] | None = None,
+) -> tuple[NDArray[numpy.float32], GlareReport]:
+    """Add the glare of the eye to a picture (Spencer et al. 1995): returns the new picture and what was done.
+
+    Parameters
+    ----------
+    pixels
+        Linear values, shape (H, W, 3), row 0 at the top. Values that are no light (not a number, infinite) are repaired, not spread.
+    projection
+        "perspective", "latlong" (a probe: 2:1, or 4:1 for its upper half) or "fisheye".
+    field_of_view_deg
+        Of a perspective picture the angle between left and right border (39.6 by default, as Blender's first camera), of a fisheye that of its width (180). [degrees]
+    rows
+        Of a latlong picture: "centre" or "corner".
+    white_luminance
+        Luminance of a pixel of value 1: 683 in the scale "blender", 1 in "luminance". [cd m-2]
+    color_space
+        "lin_rec709", "acescg", "lin_rec2020" or "xyz".
+    state
+        "photopic", "mesopic", "scotopic", or "auto" by the mean luminance: photopic above 5 cd m-2, scotopic below 0.005.
+    threshold
+        Light above this luminance glares; by default 20 times the mean luminance. [cd m-2]
+    whole_pixels
+        With a threshold: all light of the brighter pixels glares, not only what exceeds it.
+    all_light
+        All light glares.
+    size
+        Width and height of the filter in widths and heights of the picture, 0.01 to 2. A latlong picture always has all of it.
+    seed
+        Draws the streaks.
+    streaks
+        Their contrast, 0 (none) to 1 (lines on black, as in the thesis).
+    progress
+        ``progress(stage, fraction)``; returning False raises ``Cancelled``.
+    """
+
+def point_spread_function(state: str, angles_deg: ArrayLike, wavelengths_nm: ArrayLike) -> NDArray[numpy.float64]:
+    """Share of the light of a point per solid angle, shape (angles, wavelengths). [sr-1]
+
+    Parameters
+    ----------
+    state
+        "photopic", "mesopic" or "scotopic".
+    angles_deg
+        From the source, 0 to 180. [degrees]
+    wavelengths_nm
+        300 to 1000. Only the lenticular halo of the mesopic and the scotopic eye depends on them. [nm]
+    """

@@ -3,9 +3,11 @@
 //! Exit codes: 0 done, 1 failed while working (such as a full disk), 2 wrong input (one line says which), 130 cancelled.
 
 mod air_options;
+mod glare;
 mod info;
 mod night_options;
 mod options;
+mod picture_options;
 mod places;
 mod render;
 mod terminal;
@@ -32,6 +34,8 @@ enum Command {
     Info(Box<info::Options>),
     /// List the places that a name may mean, or say what is known of coordinates.
     Places(places::Options),
+    /// Add the glare of the eye to a picture: a probe, or a scene that it lit.
+    Glare(Box<glare::Options>),
 }
 
 const EXIT_CODES: &str = "\
@@ -47,6 +51,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             Command::Render(options) => render::run(&options),
             Command::Info(options) => info::run(&options),
             Command::Places(options) => places::run(&options),
+            Command::Glare(options) => glare::run(&options),
         },
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             // A closed pipe (`skyprobe --help | head`) is not worth a complaint.
@@ -87,7 +92,7 @@ fn complain(message: &str) {
 /// What clap says over several lines, without the usage.
 fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "error: a command is missing: render, info or places (see skyprobe --help)".to_string();
+        return "error: a command is missing: render, info, places, glare or tonemap (see skyprobe --help)".to_string();
     }
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));

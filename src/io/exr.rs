@@ -12,14 +12,17 @@
 
 mod blocks;
 mod header;
+mod picture;
 
 pub(super) use blocks::Packing;
-pub(super) use header::header;
+pub(super) use header::{header, picture_header};
+pub(super) use picture::read_rgb;
 
 use super::Half;
 use crate::error::{Error, Result};
 use crate::probe::Probe;
 use ::exr::meta::attribute::{AttributeValue, Text};
+use ::exr::meta::header::{ImageAttributes, LayerAttributes};
 use ::exr::prelude::{ReadChannels, ReadLayers, Vec2};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -92,6 +95,38 @@ fn string(value: &Text) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
+/// Texts and numbers of a header by name, as text.
+fn texts(shared: &ImageAttributes, own: &LayerAttributes) -> BTreeMap<String, String> {
+    let mut attributes = BTreeMap::new();
+    let mut put = |name: &str, value: Option<String>| {
+        if let Some(value) = value {
+            attributes.insert(name.to_owned(), value);
+        }
+    };
+    let number = |value: Option<f32>| value.map(|value| value.to_string());
+    put("whiteLuminance", number(own.white_luminance));
+    put("latitude", number(own.latitude));
+    put("longitude", number(own.longitude));
+    put("altitude", number(own.altitude));
+    put("utcOffset", number(own.utc_offset));
+    put("capDate", own.capture_date.as_ref().map(string));
+    put("wrapmodes", own.wrap_mode_name.as_ref().map(string));
+    put("comments", own.comments.as_ref().map(string));
+    put("software", own.software_name.as_ref().map(string));
+    put("envmap", own.environment_map.as_ref().map(|map| format!("{map:?}")));
+    put("chromaticities", shared.chromaticities.map(|found| format!("{found:?}")));
+    for (name, value) in own.other.iter().chain(&shared.other) {
+        match value {
+            AttributeValue::Text(value) => put(&string(name), Some(string(value))),
+            AttributeValue::F32(value) => put(&string(name), Some(value.to_string())),
+            AttributeValue::F64(value) => put(&string(name), Some(value.to_string())),
+            AttributeValue::I32(value) => put(&string(name), Some(value.to_string())),
+            _ => {}
+        }
+    }
+    attributes
+}
+
 /// What [`read`] found.
 #[derive(Clone, Debug)]
 pub struct Picture {
@@ -127,34 +162,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Picture> {
         .from_buffered(BufReader::new(file))
         .map_err(|error| Error::file(path, error))?;
     let layer = image.layer_data;
-    let own = &layer.attributes;
-    let mut attributes = BTreeMap::new();
-    let mut put = |name: &str, value: Option<String>| {
-        if let Some(value) = value {
-            attributes.insert(name.to_owned(), value);
-        }
-    };
-    let number = |value: Option<f32>| value.map(|value| value.to_string());
-    put("whiteLuminance", number(own.white_luminance));
-    put("latitude", number(own.latitude));
-    put("longitude", number(own.longitude));
-    put("altitude", number(own.altitude));
-    put("utcOffset", number(own.utc_offset));
-    put("capDate", own.capture_date.as_ref().map(string));
-    put("wrapmodes", own.wrap_mode_name.as_ref().map(string));
-    put("comments", own.comments.as_ref().map(string));
-    put("software", own.software_name.as_ref().map(string));
-    put("envmap", own.environment_map.as_ref().map(|map| format!("{map:?}")));
-    put("chromaticities", image.attributes.chromaticities.map(|found| format!("{found:?}")));
-    for (name, value) in own.other.iter().chain(&image.attributes.other) {
-        match value {
-            AttributeValue::Text(value) => put(&string(name), Some(string(value))),
-            AttributeValue::F32(value) => put(&string(name), Some(value.to_string())),
-            AttributeValue::F64(value) => put(&string(name), Some(value.to_string())),
-            AttributeValue::I32(value) => put(&string(name), Some(value.to_string())),
-            _ => {}
-        }
-    }
+    let attributes = texts(&image.attributes, &layer.attributes);
     Ok(Picture { width: layer.size.width(), height: layer.size.height(), pixels: layer.channel_data.pixels.1, attributes })
 }
 

@@ -5,6 +5,10 @@
 //! Radiance itself adds half a step and so reads pixels brighter by that. Negative components cannot be written and become 0.
 //! Rows are run-length encoded one component after the other.
 
+mod read;
+
+pub(super) use read::read_rgb;
+
 use super::metadata::Metadata;
 use crate::probe::ProbeSettings;
 use crate::spectrum::ColorSpace;
@@ -73,18 +77,29 @@ pub(super) fn header(settings: &ProbeSettings, metadata: &Metadata) -> String {
     if let Some(comments) = &metadata.comments {
         line("COMMENT", comments);
     }
-    if settings.color_space == ColorSpace::Xyz {
-        line("EXPOSURE", &"1");
-        line("FORMAT", &"32-bit_rle_xyze");
-    } else {
-        let c = settings.color_space.chromaticities();
-        let numbers = [c.red, c.green, c.blue, c.white].map(|[x, y]| format!("{x:.5} {y:.5}")).join(" ");
-        line("PRIMARIES", &numbers);
-        line("EXPOSURE", &"1");
-        line("FORMAT", &"32-bit_rle_rgbe");
+    text + &values(settings.color_space, (settings.width, settings.height()))
+}
+
+/// The same for a picture of `size` with its own `fields`.
+pub(super) fn picture_header(color_space: ColorSpace, size: (usize, usize), fields: &[(String, String)]) -> String {
+    let mut text = format!("#?RADIANCE\nSOFTWARE=skyprobe {}\n", env!("CARGO_PKG_VERSION"));
+    for (name, value) in fields {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{name}={}", value.replace(['\n', '\r'], " "));
     }
-    let _ = write!(text, "\n-Y {} +X {}\n", settings.height(), settings.width);
-    text
+    text + &values(color_space, size)
+}
+
+/// The end of every header: what values are, and how many.
+fn values(color_space: ColorSpace, (width, height): (usize, usize)) -> String {
+    let (primaries, format) = if color_space == ColorSpace::Xyz {
+        (String::new(), "32-bit_rle_xyze")
+    } else {
+        let c = color_space.chromaticities();
+        let numbers = [c.red, c.green, c.blue, c.white].map(|[x, y]| format!("{x:.5} {y:.5}")).join(" ");
+        (format!("PRIMARIES={numbers}\n"), "32-bit_rle_rgbe")
+    };
+    format!("{primaries}EXPOSURE=1\nFORMAT={format}\n\n-Y {height} +X {width}\n")
 }
 
 /// Appends one component of a row: runs of 4 to 127 equal bytes as (128 + count, byte), others as (count, bytes...).

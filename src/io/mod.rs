@@ -8,16 +8,20 @@ pub mod hdr;
 pub mod json;
 pub mod metadata;
 pub mod png;
+mod read;
 mod row_file;
 mod sample_map;
 mod stream;
+mod write;
 
 pub use atomic::{check_writable, write_atomically};
 pub use config::Config;
 pub use describe::describe;
 pub use metadata::Metadata;
+pub use read::{PictureHints, read_picture};
 pub use sample_map::SampleMap;
 pub use stream::render_to_files;
+pub use write::write_picture;
 
 use crate::error::{Error, Result};
 use crate::probe::{Probe, ProbeSettings, Projection};

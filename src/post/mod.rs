@@ -4,6 +4,7 @@
 //! picture ──> repair (what no light can be) ──> glare ──> tone mapping ──> 8 or 16 bits
 //! ```
 
+pub mod glare;
 pub mod picture;
 
-pub use picture::{Picture, Repairs, View};
+pub use picture::{Picture, PictureProjection, Repairs, View};

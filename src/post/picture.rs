@@ -5,6 +5,7 @@ use crate::probe::{Extent, Probe, Projection, Rows};
 use crate::spectrum::color_space::ColorSpace;
 use crate::units::Scale;
 use rayon::prelude::*;
+use std::str::FromStr;
 
 /// Greatest width and height [pixels].
 pub const MAX_SIDE: usize = 32768;
@@ -31,6 +32,62 @@ pub enum View {
         /// Angle between opposite borders [degrees], above 0 to 360.
         field_of_view_deg: f64,
     },
+}
+
+/// Horizontal field of view of a perspective picture of which nobody says it [degrees]: Blender's first camera, 50 mm on 36 mm.
+pub const DEFAULT_FIELD_OF_VIEW_DEG: f64 = 39.6;
+
+/// The kind of a [`View`], as users name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PictureProjection {
+    /// [`View::LatLong`].
+    LatLong,
+    /// [`View::Perspective`].
+    Perspective,
+    /// [`View::Fisheye`].
+    Fisheye,
+}
+
+impl PictureProjection {
+    const ALL: [Self; 3] = [Self::LatLong, Self::Perspective, Self::Fisheye];
+
+    /// The name that users write: `latlong`, `perspective` or `fisheye`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::LatLong => "latlong",
+            Self::Perspective => "perspective",
+            Self::Fisheye => "fisheye",
+        }
+    }
+
+    /// The view of this kind, of which each takes what it needs: `rows`, or the field of view [degrees].
+    pub const fn view(self, rows: Rows, field_of_view_deg: f64) -> View {
+        match self {
+            Self::LatLong => View::LatLong { rows },
+            Self::Perspective => View::Perspective { horizontal_field_of_view_deg: field_of_view_deg },
+            Self::Fisheye => View::Fisheye { field_of_view_deg },
+        }
+    }
+}
+
+impl FromStr for PictureProjection {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let found = Self::ALL.into_iter().find(|projection| projection.name() == text);
+        found.ok_or_else(|| Error::input("projection", format!("{text:?}"), "latlong, perspective or fisheye"))
+    }
+}
+
+impl View {
+    /// Its kind.
+    pub const fn projection(self) -> PictureProjection {
+        match self {
+            Self::LatLong { .. } => PictureProjection::LatLong,
+            Self::Perspective { .. } => PictureProjection::Perspective,
+            Self::Fisheye { .. } => PictureProjection::Fisheye,
+        }
+    }
 }
 
 /// How many values of a picture were not those of light ([`Picture::repair`]).

@@ -11,6 +11,7 @@ mod errors;
 mod filter;
 mod night;
 mod places;
+mod post;
 mod probe;
 mod results;
 mod sky;
@@ -53,6 +54,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(places::elevation_m, module)?)?;
     module.add_function(wrap_pyfunction!(places::zone_of_place, module)?)?;
     module.add_function(wrap_pyfunction!(places::civil_time, module)?)?;
+    module.add_class::<post::Report>()?;
+    module.add_function(wrap_pyfunction!(post::glare, module)?)?;
+    module.add_function(wrap_pyfunction!(post::point_spread_function, module)?)?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(run_command_line, module)?)?;
     Ok(())

@@ -28,6 +28,25 @@ pub struct Chromaticities {
     pub white: [f64; 2],
 }
 
+impl Chromaticities {
+    /// The matrix from the space with these primaries to CIE XYZ, with the adaptation from its white to D65.
+    pub fn matrix_to_xyz(&self) -> Matrix {
+        let Self { red, green, blue, white } = *self;
+        let primaries = transpose(&[xyz_of(red), xyz_of(green), xyz_of(blue)]);
+        let scale = transform(&inverse(&primaries), xyz_of(white));
+        let own = primaries.map(|row| std::array::from_fn(|i| row[i] * scale[i]));
+        if white == D65 { own } else { product(&bradford(white, D65), &own) }
+    }
+
+    /// The space that has them, if it is one of ours: each coordinate within 0.001.
+    pub fn space(&self) -> Option<ColorSpace> {
+        let flat = |c: &Self| [c.red, c.green, c.blue, c.white].concat();
+        let own = flat(self);
+        let is = |space: &ColorSpace| flat(&space.chromaticities()).iter().zip(&own).all(|(a, b)| (a - b).abs() < 1e-3);
+        [ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz].into_iter().find(is)
+    }
+}
+
 /// A linear colour space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ColorSpace {
@@ -88,11 +107,7 @@ impl ColorSpace {
         if self == Self::Xyz {
             return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         }
-        let Chromaticities { red, green, blue, white } = self.chromaticities();
-        let primaries = transpose(&[xyz_of(red), xyz_of(green), xyz_of(blue)]);
-        let scale = transform(&inverse(&primaries), xyz_of(white));
-        let own = primaries.map(|row| std::array::from_fn(|i| row[i] * scale[i]));
-        if white == D65 { own } else { product(&bradford(white, D65), &own) }
+        self.chromaticities().matrix_to_xyz()
     }
 
     /// The colour `xyz` in this space; components are negative outside the gamut, see [`Gamut`].

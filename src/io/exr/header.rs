@@ -2,6 +2,7 @@
 
 use super::super::{Metadata, own_fields};
 use super::Packing;
+use crate::post::{Picture, View};
 use crate::probe::{ProbeSettings, Projection};
 use crate::spectrum::ColorSpace;
 use std::collections::BTreeMap;
@@ -31,6 +32,16 @@ impl Attributes {
         self.put(name, "string", value.as_bytes().to_vec());
     }
 
+    /// Magic number; version 2, one part of scan lines, short names; the attributes.
+    fn into_bytes(self) -> Vec<u8> {
+        let mut bytes = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
+        for (name, (kind, value)) in self.0 {
+            bytes.extend([name.as_bytes(), &[0], kind.as_bytes(), &[0], &(value.len() as i32).to_le_bytes(), &value].concat());
+        }
+        bytes.push(0);
+        bytes
+    }
+
     fn window(&mut self, name: &str, width: usize, height: usize) {
         let corners = [0, 0, width as i32 - 1, height as i32 - 1];
         self.put(name, "box2i", corners.into_iter().flat_map(i32::to_le_bytes).collect());
@@ -42,13 +53,31 @@ pub fn header(settings: &ProbeSettings, metadata: &Metadata, packing: &Packing) 
     let mut attributes = Attributes(BTreeMap::new());
     put_layout(&mut attributes, packing);
     put_meaning(&mut attributes, settings, metadata, packing.scale());
-    // Magic number; version 2, one part of scan lines, short names.
-    let mut bytes = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
-    for (name, (kind, value)) in attributes.0 {
-        bytes.extend([name.as_bytes(), &[0], kind.as_bytes(), &[0], &(value.len() as i32).to_le_bytes(), &value].concat());
+    attributes.into_bytes()
+}
+
+/// The same for a picture with its own `fields`.
+pub fn picture_header(picture: &Picture, fields: Vec<(String, String)>, packing: &Packing) -> Vec<u8> {
+    let mut attributes = Attributes(BTreeMap::new());
+    put_layout(&mut attributes, packing);
+    let wrap_modes = if matches!(picture.view, View::LatLong { .. }) { "periodic,clamp" } else { "black" };
+    put_values(&mut attributes, picture.color_space, picture.white_luminance, wrap_modes);
+    for (name, value) in fields {
+        attributes.text(&name, &value);
     }
-    bytes.push(0);
-    bytes
+    attributes.into_bytes()
+}
+
+/// What values and borders of every picture are.
+fn put_values(attributes: &mut Attributes, color_space: ColorSpace, white_luminance: f64, wrap_modes: &str) {
+    let space = color_space.chromaticities();
+    attributes.floats("chromaticities", "chromaticities", &[space.red, space.green, space.blue, space.white].concat());
+    attributes.float("whiteLuminance", white_luminance);
+    attributes.text("wrapmodes", wrap_modes);
+    attributes.text("software", concat!("skyprobe ", env!("CARGO_PKG_VERSION")));
+    if color_space != ColorSpace::Xyz {
+        attributes.text("colorInteropID", color_space.interop_id());
+    }
 }
 
 /// What every file must say.
@@ -74,9 +103,11 @@ fn put_layout(attributes: &mut Attributes, packing: &Packing) {
 
 /// What the numbers in the file are.
 fn put_meaning(attributes: &mut Attributes, settings: &ProbeSettings, metadata: &Metadata, scale: f32) {
-    let space = settings.color_space.chromaticities();
-    attributes.floats("chromaticities", "chromaticities", &[space.red, space.green, space.blue, space.white].concat());
-    attributes.float("whiteLuminance", settings.scale.white_luminance() / f64::from(scale));
+    let wrap_modes = match settings.projection {
+        Projection::LatLong => "periodic,clamp",
+        Projection::Fisheye => "black",
+    };
+    put_values(attributes, settings.color_space, settings.scale.white_luminance() / f64::from(scale), wrap_modes);
     let places = [("latitude", metadata.latitude_deg), ("longitude", metadata.longitude_deg), ("altitude", metadata.elevation_m)];
     // OpenEXR: UTC = local time + utcOffset.
     for (name, value) in places.into_iter().chain([("utcOffset", metadata.utc_offset_s.map(|value| -value))]) {
@@ -87,22 +118,11 @@ fn put_meaning(attributes: &mut Attributes, settings: &ProbeSettings, metadata: 
     if let Some(date) = &metadata.capture_date {
         attributes.text("capDate", date);
     }
-    attributes.text(
-        "wrapmodes",
-        match settings.projection {
-            Projection::LatLong => "periodic,clamp",
-            Projection::Fisheye => "black",
-        },
-    );
     let warning =
         (scale != 1.0).then(|| format!("The pixels are multiplied by {scale} to fit half floats: divide by it for true values."));
     let comments: Vec<String> = warning.into_iter().chain(metadata.comments.clone()).collect();
     if !comments.is_empty() {
         attributes.text("comments", &comments.join("\n"));
-    }
-    attributes.text("software", concat!("skyprobe ", env!("CARGO_PKG_VERSION")));
-    if settings.color_space != ColorSpace::Xyz {
-        attributes.text("colorInteropID", settings.color_space.interop_id());
     }
     for (name, value) in own_fields(settings, metadata) {
         attributes.text(&name, &value);
