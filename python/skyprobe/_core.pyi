@@ -1159,7 +1159,7 @@ class CivilTime:
         forward: the time as far after the gap is taken)."""
 
 def search_places(text: str, limit: int = 10) -> list[Place]:
-    """Places whose name, or another name, matches `text`: the best first. About a millisecond; the first time some 0.1 s.
+    """Places whose name, or another name, matches `text`: the best first. Up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
 
     Case, accents and hyphens do not count, words may be begun only, and region or country may follow, after a comma or not: "lund", "goteborg",
     "los ang", "portland, maine", "lund se". Ordered by how exactly the name is met, then by inhabitants. An empty text finds nothing.
