@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel tells of the sky, as text."""
 
-import math
+import functools
 import textwrap
 
 from skyprobe import places
@@ -54,7 +54,13 @@ def amount(value):
 
 def place(settings):
     """Return what place the coordinates are at, such as 12 km N of Lund."""
-    return places.nearest(math.degrees(settings.latitude), math.degrees(settings.longitude)).label
+    return _nearest(values.degrees(settings.latitude), values.degrees(settings.longitude))
+
+
+# A panel is drawn at every move of the mouse.
+@functools.lru_cache(maxsize=64)
+def _nearest(latitude, longitude):
+    return places.nearest(latitude, longitude).label
 
 
 def zone(settings):
