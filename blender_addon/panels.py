@@ -3,32 +3,34 @@
 
 import bpy
 
-from . import choices, compat, live, operators, presets, readout, scene_probe, sequence, values
+from . import beside, choices, compat, live, operators, presets, readout, scene_probe, sequence, values, viewport_drawing
 
 
 def _draw_top(layout, scene, settings):
     _draw_run(layout, scene, settings)
     live.ensure_readout(scene)
     shown = live.readout(scene)
-    if shown.message:
-        # A label does not break its lines.
-        box = layout.box().column(align=True)
-        for number, line in enumerate(readout.wrapped(shown.message)):
-            box.label(text=line, icon="ERROR" if number == 0 else "BLANK1")
+    _draw_message(layout, shown.message)
     column = layout.column(align=True)
     for icon, text in readout.lines(shown, settings):
         column.label(text=text, icon=icon)
 
 
-def _draw_run(layout, scene, settings):
-    job, frames = operators.running_job, sequence.progress()
-    if job is not None:
-        row = layout.row(align=True)
-        compat.layout_progress(row, job.fraction, f"{job.stage} {job.fraction:.0%} (Esc cancels)")
-        row.operator(operators.SKYPROBE_OT_cancel.bl_idname, text="", icon="X")
+def _draw_message(layout, message):
+    if not message:
         return
-    if frames is not None:
-        compat.layout_progress(layout, frames[0] / frames[1], f"frame {frames[0] + 1} of {frames[1]} (Esc cancels)")
+    # A label does not break its lines.
+    box = layout.box().column(align=True)
+    for number, line in enumerate(readout.wrapped(message)):
+        box.label(text=line, icon="ERROR" if number == 0 else "BLANK1")
+
+
+def _draw_run(layout, scene, settings):
+    work = beside.current
+    if work is not None:
+        row = layout.row(align=True)
+        compat.layout_progress(row, *work.progress())
+        row.operator(beside.SKYPROBE_OT_cancel.bl_idname, text="", icon="X")
         return
     if not scene_probe.is_lit(scene):
         row = layout.row(align=True)
@@ -72,7 +74,7 @@ def _draw_time(layout, scene, settings):
     column.prop(settings, "month")
     column.prop(settings, "year")
     layout.prop(settings, "day_of_year", slider=True)
-    layout.prop(settings, "hour", slider=True, text="Time {:02d}:{:02d}:{:02d}".format(*values.clock(settings)))
+    layout.prop(settings, "hour", slider=True, text=f"Time {readout.time(settings)}")
     layout.prop(settings, "time_offset_h")
     layout.operator(operators.SKYPROBE_OT_now.bl_idname, icon="TIME")
     layout.prop(settings, "zone_mode")
@@ -170,6 +172,7 @@ def _draw_viewport(layout, scene, settings):
     column.prop(settings, "show_analemma")
     column.prop(settings, "show_north")
     layout.prop(settings, "helper_size")
+    _draw_message(layout, viewport_drawing.failure())
 
 
 # Name, title, what draws it, whether it is closed at first.

@@ -53,14 +53,25 @@ def amount(value):
 
 
 def place(settings):
-    """Return what place the coordinates are at, such as 12 km N of Lund."""
-    return _nearest(values.degrees(settings.latitude), values.degrees(settings.longitude))
+    """Return what place the coordinates are at, such as 12 km N of Lund, or an empty text if they are none."""
+    try:
+        return _nearest(**values.coordinates(settings))
+    except jobs.USER_ERRORS:
+        return ""
 
 
 # A panel is drawn at every move of the mouse.
 @functools.lru_cache(maxsize=64)
 def _nearest(latitude, longitude):
     return places.nearest(latitude, longitude).label
+
+
+def time(settings):
+    """Return the time of day of the settings with its seconds, or a dash if it is no number."""
+    try:
+        return "{:02d}:{:02d}:{:02d}".format(*values.clock(settings))
+    except ValueError:
+        return DASH
 
 
 def zone(settings):

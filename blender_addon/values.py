@@ -4,6 +4,7 @@
 import datetime
 import math
 import os
+import re
 from dataclasses import replace
 
 import bpy
@@ -17,6 +18,10 @@ OPTIONAL_AIR = (
     ("use_ozone", "ozone_du"),
     ("use_stratosphere", "stratospheric_aod550"),
 )
+# Years of the civil date.
+FIRST_YEAR, LAST_YEAR = 1000, 3000
+# The longest path that Blender keeps [bytes].
+LONGEST_PATH = 1023
 # The preview's air is solved as coarsely as the library offers.
 PREVIEW_QUALITY = "draft"
 # What the eye sees at best [magnitude].
@@ -68,11 +73,13 @@ def layers(settings):
 
 def place(settings):
     """Return latitude, longitude [degrees] and elevation_m as keywords of skyprobe.Sky."""
-    return {
-        "latitude": degrees(settings.latitude),
-        "longitude": degrees(settings.longitude),
-        "elevation_m": as_typed(settings.elevation_m),
-    }
+    return {**coordinates(settings), "elevation_m": as_typed(settings.elevation_m)}
+
+
+def coordinates(settings):
+    """Return latitude and longitude [degrees] as keywords; the poles and the date line are exact."""
+    limits = {"latitude": math.pi / 2.0, "longitude": math.pi}
+    return {name: degrees(min(max(getattr(settings, name), -limit), limit)) for name, limit in limits.items()}
 
 
 def width(settings):
@@ -90,8 +97,16 @@ def degrees(angle):
     return as_typed(math.degrees(angle))
 
 
+def check_finite(settings, *names):
+    """Raise ValueError for a property that a script or a driver made no number."""
+    for name in names:
+        if not math.isfinite(getattr(settings, name)):
+            raise ValueError(f"{name} = {getattr(settings, name)}: must be a number; look for the script or the driver that sets it")
+
+
 def clock(settings):
     """Return (hour, minute, second) of the time of day."""
+    check_finite(settings, "hour")
     seconds = min(round(settings.hour * 3600.0), 86399)
     return seconds // 3600, seconds // 60 % 60, seconds % 60
 
@@ -105,6 +120,14 @@ def date(settings):
         raise ValueError(f"date = {text}: must be a day of the calendar; that month is shorter") from None
 
 
+def zone_name(settings):
+    """Return the name of the time zone; ValueError for what can be no name of one."""
+    name = settings.zone_name.strip()
+    if not re.fullmatch(r"[\w+-]+(/[\w+-]+)*", name, re.ASCII):
+        raise ValueError(f"zone = {name or '(empty)'}: must be a name of the IANA database, such as Europe/Stockholm")
+    return name
+
+
 def time(settings):
     """Return the time as ISO 8601 with its zone in brackets, its offset, or neither where the place decides.
 
@@ -114,29 +137,38 @@ def time(settings):
     hour, minute, second = clock(settings)
     text = f"{settings.year:04d}-{settings.month:02d}-{settings.day:02d}T{hour:02d}:{minute:02d}:{second:02d}"
     if settings.zone_mode == "NAME":
-        text = f"{text}[{settings.zone_name.strip()}]"
+        text = f"{text}[{zone_name(settings)}]"
     elif settings.zone_mode == "OFFSET":
+        check_finite(settings, "utc_offset")
         minutes = round(settings.utc_offset * 60.0)
         text = f"{text}{'-' if minutes < 0 else '+'}{abs(minutes) // 60:02d}:{abs(minutes) % 60:02d}"
+    check_finite(settings, "time_offset_h")
     if settings.time_offset_h == 0.0:
         return text
-    start = places.civil_time(text, **_where(settings)).time
-    shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
-    return shifted.strftime("%Y-%m-%dT%H:%M:%S+00:00")
+    start = places.civil_time(text, **coordinates(settings)).time
+    try:
+        shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
+    except OverflowError:
+        shifted = None
+    # The years that the calendar of the panel has.
+    if shifted is None or not FIRST_YEAR <= shifted.year <= LAST_YEAR:
+        raise ValueError(f"time_offset_h = {settings.time_offset_h:g}: must lead to a year from {FIRST_YEAR} to {LAST_YEAR}")
+    return shifted.isoformat(timespec="seconds")
 
 
 def civil_time(settings):
     """Return the skyprobe.places.CivilTime of the settings: the time with its offset, zone, and whether it is summer time."""
-    return places.civil_time(time(settings), **_where(settings))
+    return places.civil_time(time(settings), **coordinates(settings))
 
 
 def now(settings):
     """Return this moment as a datetime with the offset of the settings' zone."""
     moment = datetime.datetime.now(datetime.timezone.utc)
     if settings.zone_mode == "OFFSET":
+        check_finite(settings, "utc_offset")
         return moment.astimezone(datetime.timezone(datetime.timedelta(hours=settings.utc_offset)))
-    zone = settings.zone_name.strip() if settings.zone_mode == "NAME" else places.time_zone(**_where(settings))
-    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **_where(settings)).time.tzinfo)
+    zone = zone_name(settings) if settings.zone_mode == "NAME" else places.time_zone(**coordinates(settings))
+    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **coordinates(settings)).time.tzinfo)
 
 
 def set_clock(settings, moment):
@@ -170,10 +202,6 @@ def span(settings, name):
     return begin, (end - begin).total_seconds() / 3600.0
 
 
-def _where(settings):
-    return {"latitude": degrees(settings.latitude), "longitude": degrees(settings.longitude)}
-
-
 def preview_request(scene):
     """Return the jobs.SkyRequest of the live preview of `scene`; ValueError for settings that make no sense."""
     settings = scene.skyprobe
@@ -189,7 +217,8 @@ def final_request(scene):
 
 
 def sky_request(settings, quality, pixels):
-    """Return the jobs.SkyRequest of `settings` at a quality of the air and a width [pixels]."""
+    """Return the jobs.SkyRequest of `settings` at a quality of the air and a width [pixels]; ValueError for settings that make no sense."""
+    check_finite(settings, "north")
     return jobs.SkyRequest(
         air=air(settings, quality),
         place=place(settings),
@@ -211,7 +240,18 @@ def folder(settings, directory=None):
         raise ValueError(f"folder = {directory}: must be absolute until the .blend is saved")
     if not directory.strip():
         raise ValueError("folder = (empty): must be the name of a folder; // is where the .blend is")
-    return os.path.normpath(bpy.path.abspath(directory))
+    path = bpy.path.abspath(directory)
+    if not os.path.isabs(path):
+        raise ValueError(f"folder = {directory}: must be absolute, or begin with // for where the .blend is")
+    return os.path.normpath(path)
+
+
+def check_path(path):
+    """Raise ValueError for a path that is too long for Blender; return it."""
+    length = len(os.fsencode(path))
+    if length > LONGEST_PATH:
+        raise ValueError(f"folder = {os.path.dirname(path)}: must be shorter; {length} bytes with the file's name, and Blender takes {LONGEST_PATH}")
+    return path
 
 
 def probe_path(settings):
@@ -219,4 +259,4 @@ def probe_path(settings):
     where, when = place(settings), time(settings)
     stamp = when[:16].replace("-", "").replace(":", "")
     name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{width(settings)}.exr"
-    return os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name)
+    return check_path(os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name))
