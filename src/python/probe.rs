@@ -135,7 +135,7 @@ impl Probe {
     #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0))]
     fn save(&self, py: Python<'_>, path: PathBuf, half: Option<&Bound<'_, PyAny>>, exposure_stops: f64) -> PyResult<()> {
         let probe = self.snapshot(py)?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, layers: false };
+        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, ..Default::default() };
         work::run(py, None, |_| io::save(&path, &probe, &options, &self.metadata))
     }
 
