@@ -34,11 +34,13 @@ pub struct Ashikhmin {
     pub threshold: f64,
     /// Largest surroundings, 1 to 20 [pixels].
     pub largest_scale: f64,
+    /// What is black: 1 the darkest of the picture, as in the paper; 0 no light at all, which leaves the grey tone that the thesis speaks of. 0 to 1, in steps of the eye.
+    pub stretch: f64,
 }
 
 impl Default for Ashikhmin {
     fn default() -> Self {
-        Self { threshold: 0.5, largest_scale: 10.0 }
+        Self { threshold: 0.5, largest_scale: 10.0, stretch: 1.0 }
     }
 }
 
@@ -61,12 +63,15 @@ impl Ashikhmin {
         vec![
             Field::new("threshold", &mut self.threshold, 0.01, 10.0),
             Field::new("largest_scale", &mut self.largest_scale, 1.0, 20.0),
+            Field::new("stretch", &mut self.stretch, 0.0, 1.0),
         ]
     }
 
     /// What a luminance becomes in even surroundings of the same [cd m-2, 0 to 1].
     pub fn curve(&self, metering: &Metering) -> impl Fn(f32) -> f32 + Sync + use<> {
-        let (least, greatest) = (capacity(metering.lowest), capacity(metering.highest));
+        let (lowest, greatest) = (capacity(metering.lowest), capacity(metering.highest));
+        // An even picture, for which the paper has no answer, is white.
+        let least = if greatest > lowest { self.stretch * lowest } else { 0.0 };
         let whole = if greatest > least { 1.0 / (greatest - least) } else { 0.0 };
         move |luminance| ((capacity(f64::from(luminance)) - least) * whole).clamp(0.0, 1.0) as f32
     }

@@ -90,7 +90,10 @@ impl Filmic {
         move |value| {
             // The least of the range is black.
             let stops = (value * grey).max(1e-4).log2();
-            let distance = (stops * per_stop).clamp(-x0, 1.0 - x0);
+            let distance = (stops * per_stop).min(1.0 - x0);
+            if distance <= -x0 {
+                return 0.0;
+            }
             let signal = if distance >= 0.0 { y0 + shoulder.at(distance) } else { y0 - toe.at(-distance) };
             signal.clamp(0.0, 1.0).powf(DISPLAY_POWER as f32)
         }

@@ -21,7 +21,7 @@ pub struct Metering {
     pub log_average: f64,
     /// 95th percentile: the bright parts.
     pub bright: f64,
-    /// Smallest luminance above 0 of all pixels that were looked at.
+    /// Smallest luminance of all pixels.
     pub lowest: f64,
     /// Largest luminance of all pixels.
     pub highest: f64,
@@ -32,12 +32,14 @@ impl Metering {
     pub fn of(frame: &Frame<'_>) -> Self {
         let luminance = frame.to_xyz()[1].map(|value| value as f32);
         let matrix = [luminance, [0.0; 3], [0.0; 3]];
-        let highest = super::rows(frame.height, |row| {
-            let of = |largest: f32, &pixel: &[f32; 3]| largest.max(exposed(&matrix, pixel)[0]);
-            f64::from(frame.row(row).iter().fold(0.0, of))
+        let (lowest, highest) = super::rows(frame.height, |row| {
+            frame.row(row).iter().fold((f32::MAX, 0.0f32), |(lowest, highest), &pixel| {
+                let luminance = exposed(&matrix, pixel)[0].max(0.0);
+                (lowest.min(luminance), highest.max(luminance))
+            })
         })
         .into_iter()
-        .fold(0.0, f64::max);
+        .fold((f64::MAX, 0.0f64), |(lowest, highest), (low, high)| (lowest.min(low.into()), highest.max(high.into())));
         let step = (frame.width * frame.height / SAMPLES).max(1);
         let mut found: Vec<(f64, f64)> = (0..frame.width * frame.height)
             .step_by(step)
@@ -56,13 +58,13 @@ impl Metering {
             (value, passed / total)
         });
         let mut at = |share: f64| quantile.find(|&(_, passed)| passed >= share).map(|(value, _)| value);
-        let (Some(median), Some(bright)) = (at(0.5), at(0.95)) else { return Self { highest, ..Self::default() } };
+        let (Some(median), Some(bright)) = (at(0.5), at(0.95)) else { return Self { lowest, highest, ..Self::default() } };
         let brightest = at(BRIGHTEST_COUNTED).unwrap_or(bright);
         let (sum, counted) = found
             .iter()
             .filter(|&&(value, _)| value > 1e-3 * median && value <= brightest)
             .fold((0.0, 0.0), |(sum, counted), &(value, weight)| (sum + weight * value.ln(), counted + weight));
-        Self { log_average: (sum / counted).exp(), bright, lowest: found[0].0, highest }
+        Self { log_average: (sum / counted).exp(), bright, lowest, highest }
     }
 
     /// Luminance that an eye adapts to which looks about in the picture [cd m-2]: the geometric mean of the middle and of the bright parts, at least [`DARKNESS`].

@@ -7,7 +7,7 @@
 //! 3. **Rods** ([`Rods`]). Where there is too little light for the cones, colours fade into the bluish grey of moonlit nights, reds darken and blues brighten (Purkinje).
 //! 4. **Acuity** ([`acuity`]). What only rods see is blurred to what they resolve, if the picture is finer than that.
 //! 5. **Curve** ([`Curve`]). Straight up to the middle of the screen's range, then a shoulder that never reaches white, so that the aureole has gradation up to the Sun's disc. It acts on
-//!    the largest channel; the others keep their ratio to it (hue stays) and fade to white along the shoulder. Black stays black and nothing is added to the darks: there is no veil.
+//!    the largest channel; the others keep their ratio to it and fade to white along the shoulder so that the hue that is seen stays. Black stays black and nothing is added to the darks: there is no veil.
 //!
 //! Steps 3 and 4 look at the luminance L of each pixel together with what the eye is adapted to, L + A / 30: a black shadow at noon does not turn blue.
 
@@ -44,7 +44,7 @@ pub struct Sky {
 
 impl Default for Sky {
     fn default() -> Self {
-        Self { key: 0.7, darkening: 1.0 / 6.0, rods: 1.0, blue_shift: 0.5, acuity_loss: 1.0, colour_contrast: 1.3, shoulder: 0.5 }
+        Self { key: 0.75, darkening: 0.2, rods: 1.0, blue_shift: 0.65, acuity_loss: 1.0, colour_contrast: 1.4, shoulder: 0.6 }
     }
 }
 
