@@ -22,7 +22,7 @@ pub use png::Depth;
 pub use read::{PictureHints, read_picture};
 pub use sample_map::SampleMap;
 pub use stream::render_to_files;
-pub use write::write_picture;
+pub use write::{write_picture, write_sheet, write_toned};
 
 use crate::error::{Error, Result};
 use crate::post::tone::{Exposure, Frame, OperatorName, ToneMapper, ToneMapping};
@@ -133,8 +133,7 @@ pub fn save(path: impl AsRef<Path>, probe: &Probe, options: &FileOptions, metada
     match Format::of(path)? {
         Format::Png => {
             let mapper = ToneMapper::new(Frame::from(probe), &tone, &Progress::silent())?;
-            let kind = (tone.display, Depth::Eight);
-            write_atomically(path, |file| png::write_mapped(file, path, &mapper, kind, &Progress::silent()))
+            write_toned(path, &mapper, Depth::Eight, &Progress::silent())
         }
         Format::Exr | Format::Hdr => stream::write_probe(path, probe, options, metadata),
     }

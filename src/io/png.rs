@@ -20,7 +20,7 @@ pub enum Depth {
     Sixteen,
 }
 
-/// Writes what `mapper` shows on `display`; `path` is only for messages.
+/// Writes what `mapper` shows; `path` is only for messages.
 ///
 /// # Errors
 /// [`Error::File`], [`Error::Cancelled`].
@@ -28,9 +28,10 @@ pub(super) fn write_mapped(
     out: &mut impl Write,
     path: &Path,
     mapper: &ToneMapper<'_>,
-    (display, depth): (Display, Depth),
+    depth: Depth,
     progress: &Progress,
 ) -> Result<()> {
+    let display = mapper.display();
     match depth {
         Depth::Eight => write_8(out, path, (mapper.width(), mapper.height()), display, &mapper.to_8_bits(progress)?),
         Depth::Sixteen => {
@@ -94,7 +95,7 @@ mod tests {
         let probe = probe();
         let mapper = ToneMapper::new(Frame::from(&probe), &ToneMapping::default(), &Progress::silent()).unwrap();
         let mut file = Vec::new();
-        write_mapped(&mut file, Path::new("a"), &mapper, (Display::Srgb, Depth::Sixteen), &Progress::silent()).unwrap();
+        write_mapped(&mut file, Path::new("a"), &mapper, Depth::Sixteen, &Progress::silent()).unwrap();
         let back = image::load_from_memory(&file).unwrap();
         assert_eq!(back.color(), image::ColorType::Rgb16);
         let light = mapper.to_linear(&Progress::silent()).unwrap();
@@ -111,7 +112,7 @@ mod tests {
             let settings = ToneMapping { display, ..Default::default() };
             let mapper = ToneMapper::new(Frame::from(&probe), &settings, &Progress::silent()).unwrap();
             let mut file = Vec::new();
-            write_mapped(&mut file, Path::new("a"), &mapper, (display, Depth::Eight), &Progress::silent()).unwrap();
+            write_mapped(&mut file, Path::new("a"), &mapper, Depth::Eight, &Progress::silent()).unwrap();
             let found = png::Decoder::new(std::io::Cursor::new(&file)).read_info().unwrap().info().clone();
             let points = found.coding_independent_code_points.map(|points| [points.color_primaries, points.transfer_function]);
             match display {

@@ -131,8 +131,7 @@ impl RowFile {
             Encoder::Png => {
                 let probe = Probe::new(std::mem::take(&mut self.pixels), self.settings.clone())?;
                 let mapper = ToneMapper::new(Frame::from(&probe), &self.tone, &Progress::silent())?;
-                let kind = (self.tone.display, png::Depth::Eight);
-                png::write_mapped(&mut self.out, &self.path, &mapper, kind, &Progress::silent())?;
+                png::write_mapped(&mut self.out, &self.path, &mapper, png::Depth::Eight, &Progress::silent())?;
             }
         }
         self.out.flush().map_err(failed)?;

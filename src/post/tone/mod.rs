@@ -57,9 +57,10 @@ pub use reinhard_local::ReinhardLocal;
 pub use sheet::Sheet;
 pub use sky::Sky;
 
-use super::picture::View;
-use crate::error::{Result, check_range};
+use super::picture::{Picture, View};
+use crate::error::{Error, Result, check_range};
 use crate::progress::Progress;
+use crate::spectrum::ColorSpace;
 use frame::{dot, exposed, without_excess, without_negative};
 use gaussian::Edges;
 use rayon::prelude::*;
@@ -109,6 +110,9 @@ impl ToneMapping {
     }
 }
 
+/// Luminance of white on the reference display of sRGB [cd m-2] (IEC 61966-2-1).
+pub const DISPLAY_WHITE: f64 = 80.0;
+
 type Row<'a> = Box<dyn Fn(usize, &mut [f32]) + Send + Sync + 'a>;
 
 /// A picture ready to be shown, row by row.
@@ -116,6 +120,7 @@ pub struct ToneMapper<'a> {
     width: usize,
     height: usize,
     display: Display,
+    view: View,
     metering: Metering,
     adaptation: f64,
     exposure: f64,
@@ -160,7 +165,7 @@ impl<'a> ToneMapper<'a> {
             }
             Operator::Sky(sky) => mapped.sky(&sky, adaptation),
         };
-        Ok(Self { width: frame.width, height: frame.height, display: settings.display, metering, adaptation, exposure, row })
+        Ok(Self { width: frame.width, height: frame.height, display: settings.display, view: frame.view, metering, adaptation, exposure, row })
     }
 
     /// Width [pixels].
@@ -171,6 +176,11 @@ impl<'a> ToneMapper<'a> {
     /// Height [pixels].
     pub fn height(&self) -> usize {
         self.height
+    }
+
+    /// What shows the picture.
+    pub fn display(&self) -> Display {
+        self.display
     }
 
     /// What the picture's luminances are.
@@ -203,6 +213,17 @@ impl<'a> ToneMapper<'a> {
     /// [`Error::Cancelled`](crate::Error::Cancelled).
     pub fn to_linear(&self, progress: &Progress) -> Result<Vec<f32>> {
         self.all_rows(progress, |row, out: &mut [f32]| self.row(row, out))
+    }
+
+    /// The light of the screen as a picture, whose white is that of the reference display of sRGB, [`DISPLAY_WHITE`]: for programs that bring pictures to a screen themselves.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for [`Display::DisplayP3`], whose primaries a picture cannot have; [`Error::Cancelled`](crate::Error::Cancelled).
+    pub fn to_picture(&self, progress: &Progress) -> Result<Picture> {
+        if self.display == Display::DisplayP3 {
+            return Err(Error::input("display", self.display.name(), "srgb, rec709 or linear for values in proportion to light (EXR, HDR)"));
+        }
+        Picture::new(self.width, self.height, self.to_linear(progress)?, ColorSpace::LinRec709, DISPLAY_WHITE, self.view)
     }
 
     /// 8-bit codes, dithered, row-major (height, width, 3).
