@@ -5,7 +5,7 @@
 
 use skyprobe::atmosphere::AirParameters;
 use skyprobe::ephemeris::{Place, SunModel};
-use skyprobe::post::tone::{Display, Frame, OperatorName, Sheet, ToneMapper, ToneMapping};
+use skyprobe::post::tone::{Display, OperatorName, Sheet, ToneMapper, ToneMapping};
 use skyprobe::post::{Picture, View};
 use skyprobe::probe::{Grid, Probe, ProbeSettings, render};
 use skyprobe::progress::Progress;
@@ -18,10 +18,16 @@ use std::sync::Arc;
 /// Width of the probes that the camera looks into [pixels].
 const PROBE_WIDTH: usize = 8192;
 
-/// Size of the camera's pictures [pixels].
-const CAMERA: (usize, usize) = (640, 800);
+/// A camera: size of its pictures [pixels], angle between left and right border, height of the middle above the horizon [degrees].
+struct Camera {
+    size: (usize, usize),
+    field_of_view_deg: f64,
+    altitude_deg: f64,
+}
 
-const FIELD_OF_VIEW_DEG: f64 = 60.0;
+const UPRIGHT: Camera = Camera { size: (640, 800), field_of_view_deg: 60.0, altitude_deg: 30.0 };
+
+const WIDE: Camera = Camera { size: (1280, 640), field_of_view_deg: 90.0, altitude_deg: 20.0 };
 
 fn sky_at(air: &Arc<Atmosphere>, time: Time) -> skyprobe::Result<Sky> {
     Sky::new(Place::new(55.71, 13.19, 20.0)?, time, SunModel::Iau, Arc::clone(air))
@@ -43,16 +49,16 @@ fn probe_of(sky: &Sky) -> skyprobe::Result<Probe> {
     render(&light, &ProbeSettings { width: PROBE_WIDTH, ..Default::default() }, &Progress::silent())
 }
 
-/// What a camera sees of `probe` that looks towards `azimuth_deg`, `altitude_deg` above the horizon: the mean over each of its pixels.
-fn photograph(probe: &Probe, azimuth_deg: f64, altitude_deg: f64) -> skyprobe::Result<Picture> {
-    let (width, height) = CAMERA;
+/// What `camera` sees of `probe` towards `azimuth_deg`: the mean over each of its pixels.
+fn photograph(probe: &Probe, camera: &Camera, azimuth_deg: f64) -> skyprobe::Result<Picture> {
+    let &Camera { size: (width, height), field_of_view_deg, altitude_deg } = camera;
     let grid: Grid = probe.grid();
     let (sin, cos) = altitude_deg.to_radians().sin_cos();
     let (east, north) = azimuth_deg.to_radians().sin_cos();
     let forward = glam::DVec3::new(east * cos, north * cos, sin);
     let right = glam::DVec3::new(north, -east, 0.0);
     let up = right.cross(forward);
-    let scale = 2.0 * (0.5 * FIELD_OF_VIEW_DEG).to_radians().tan() / width as f64;
+    let scale = 2.0 * (0.5 * field_of_view_deg).to_radians().tan() / width as f64;
     let mut pixels = Vec::with_capacity(3 * width * height);
     const PARTS: usize = 4;
     for row in 0..height {
@@ -69,7 +75,7 @@ fn photograph(probe: &Probe, azimuth_deg: f64, altitude_deg: f64) -> skyprobe::R
             pixels.extend(sum);
         }
     }
-    let view = View::Perspective { horizontal_field_of_view_deg: FIELD_OF_VIEW_DEG };
+    let view = View::Perspective { horizontal_field_of_view_deg: field_of_view_deg };
     Picture::new(width, height, pixels, probe.settings.color_space, probe.settings.scale.white_luminance(), view)
 }
 
@@ -96,21 +102,27 @@ fn main() -> skyprobe::Result<()> {
     let milky_way = sky_at(&air, parse("2005-09-03T23:30:00+02:00")?)?;
     shots.push(("full Moon".into(), moon()?, 185.0));
     shots.push(("starlight".into(), milky_way, 235.0));
-    let cell = (CAMERA.0 / 2, CAMERA.1 / 2);
+    let cell = (UPRIGHT.size.0 / 2, UPRIGHT.size.1 / 2);
     let mut strip = Sheet::new(shots.len(), 6, cell)?;
     for (index, (label, sky, azimuth)) in shots.iter().enumerate() {
-        let picture = photograph(&probe_of(sky)?, *azimuth, 30.0)?;
+        let picture = photograph(&probe_of(sky)?, &UPRIGHT, *azimuth)?;
         let settings = ToneMapping::with(OperatorName::Sky);
         let mapper = ToneMapper::new(&picture, &settings, &Progress::silent())?;
-        println!("{label}: Sun at {:.2} degrees, adapted to {:.3e} cd m-2, EV {:.2}", sky.sun().altitude_deg, mapper.adaptation(), mapper.ev100());
+        println!(
+            "{label}: Sun at {:.2} degrees, adapted to {:.3e} cd m-2, EV {:.2}",
+            sky.sun().altitude_deg,
+            mapper.adaptation(),
+            mapper.ev100()
+        );
         strip.put(index, &mapper, Display::Srgb, label);
     }
     save(&folder.join("day_to_night.png"), &strip);
 
-    for (name, sky) in [("operators.png", evening(8.0)?), ("night_operators.png", moon()?)] {
-        let light = sky.light_by(&LightOptions::default(), &Progress::silent())?;
-        let probe = render(&light, &ProbeSettings { width: 2048, ..Default::default() }, &Progress::silent())?;
-        save(&folder.join(name), &Sheet::compare(Frame::from(&probe), &ToneMapping::default(), &Progress::silent())?);
+    let low_sun = evening(8.0)?;
+    for (name, sky, azimuth) in [("operators.png", &low_sun, low_sun.sun().azimuth_deg), ("night_operators.png", &moon()?, 185.0)]
+    {
+        let picture = photograph(&probe_of(sky)?, &WIDE, azimuth)?;
+        save(&folder.join(name), &Sheet::compare(&picture, &ToneMapping::default(), &Progress::silent())?);
     }
     Ok(())
 }

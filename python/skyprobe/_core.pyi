@@ -1458,7 +1458,7 @@ def tone_map(
     iso: float = 100.0,
     adaptation: float | None = None,
     display: Literal["srgb", "display_p3", "rec709", "linear"] = "srgb",
-    bits: Literal[8, 16] | None = 8,
+    bits: Literal[8, 16] | None = ...,
     projection: str = "perspective",
     field_of_view_deg: float | None = None,
     rows: str = "centre",
@@ -1487,7 +1487,7 @@ def tone_map(
     display
         What shows the picture.
     bits
-        8 (uint8, dithered), 16 (uint16), or None for the light of the screen, float32 from 0 to 1.
+        8 (uint8, dithered; the default), 16 (uint16), or None for the light of the screen, float32 from 0 to 1.
     projection, field_of_view_deg, rows, white_luminance, color_space
         As for ``glare``.
     progress

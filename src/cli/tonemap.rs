@@ -137,10 +137,18 @@ impl Options {
         let pairs: Vec<(&Path, PathBuf)> = inputs.iter().map(|input| (input.as_path(), within(input))).collect();
         for (k, (input, path)) in pairs.iter().enumerate() {
             if pairs[..k].iter().any(|(_, other)| other == path) {
-                return Err(Error::input("input", input.display(), "of another name than the others, whose place in the folder it would take"));
+                return Err(Error::input(
+                    "input",
+                    input.display(),
+                    "of another name than the others, whose place in the folder it would take",
+                ));
             }
             if same_file(input, path) {
-                return Err(Error::input("output", path.display(), "another file than the input: choose another folder or format"));
+                return Err(Error::input(
+                    "output",
+                    path.display(),
+                    "another file than the input: choose another folder or format",
+                ));
             }
         }
         Ok(pairs)

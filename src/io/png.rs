@@ -45,13 +45,7 @@ pub(super) fn write_mapped(
 ///
 /// # Errors
 /// [`Error::File`].
-pub(super) fn write_8(
-    out: &mut impl Write,
-    path: &Path,
-    size: (usize, usize),
-    display: Display,
-    pixels: &[u8],
-) -> Result<()> {
+pub(super) fn write_8(out: &mut impl Write, path: &Path, size: (usize, usize), display: Display, pixels: &[u8]) -> Result<()> {
     write(out, path, size, (display, BitDepth::Eight), pixels)
 }
 

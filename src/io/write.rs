@@ -45,8 +45,12 @@ pub fn write_toned(path: impl AsRef<Path>, mapper: &ToneMapper<'_>, depth: Depth
 pub fn write_sheet(path: impl AsRef<Path>, sheet: &Sheet, display: Display) -> Result<()> {
     let path = path.as_ref();
     match Format::of(path)? {
-        Format::Png => write_atomically(path, |file| png::write_8(file, path, (sheet.width, sheet.height), display, &sheet.pixels)),
-        Format::Exr | Format::Hdr => Err(Error::input("output", path.display(), "the name of a file that ends in .png for a contact sheet")),
+        Format::Png => {
+            write_atomically(path, |file| png::write_8(file, path, (sheet.width, sheet.height), display, &sheet.pixels))
+        }
+        Format::Exr | Format::Hdr => {
+            Err(Error::input("output", path.display(), "the name of a file that ends in .png for a contact sheet"))
+        }
     }
 }
 

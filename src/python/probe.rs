@@ -144,7 +144,12 @@ impl Probe {
         operator: &str,
     ) -> PyResult<()> {
         let probe = self.snapshot(py)?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, operator: operator.parse()?, layers: false };
+        let options = FileOptions {
+            half: half.map_or(Ok(Half::Off), read_half)?,
+            exposure_stops,
+            operator: operator.parse()?,
+            layers: false,
+        };
         work::run(py, None, |_| io::save(&path, &probe, &options, &self.metadata))
     }
 

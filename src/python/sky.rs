@@ -464,7 +464,12 @@ impl Sky {
     ) -> PyResult<()> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, operator: operator.parse()?, layers: separate_layers };
+        let options = FileOptions {
+            half: half.map_or(Ok(Half::Off), read_half)?,
+            exposure_stops,
+            operator: operator.parse()?,
+            layers: separate_layers,
+        };
         check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
         if separate_layers && Format::of(&path)? != Format::Exr {
             return Err(InputError::new_err("separate_layers = True: must be False for a file that is not .exr"));

@@ -201,7 +201,9 @@ pub fn tone_map<'py>(
         }
         (Some(ev100), None, None) => Exposure::Value { ev100 },
         (None, Some(aperture), Some(shutter_s)) => Exposure::Camera { aperture, shutter_s, iso },
-        (Some(ev100), ..) => return Err(InputError::new_err(format!("ev100 = {ev100}: must be None with aperture or shutter_s"))),
+        (Some(ev100), ..) => {
+            return Err(InputError::new_err(format!("ev100 = {ev100}: must be None with aperture or shutter_s")));
+        }
         (None, Some(_), None) => return Err(InputError::new_err("shutter_s = None: must be given with aperture")),
         (None, None, Some(_)) => return Err(InputError::new_err("aperture = None: must be given with shutter_s")),
     };

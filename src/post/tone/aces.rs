@@ -7,8 +7,8 @@
 //! It is a fit of ACES 1.0's curve, not ACES: no gamut mapping, no glow, no red modifier. Middle grey 0.18 becomes 0.105; f tends to 1.0165.
 //! Numbers: S. Hill in M. Pettineo & D. Neubelt, Baking Lab, ACES.hlsl (2016), MIT licence; the code here is our own.
 
-use crate::spectrum::color_space::{ColorSpace, Matrix, product};
 use super::display::Display;
+use crate::spectrum::color_space::{ColorSpace, Matrix, product};
 
 /// From linear Rec. 709 to the primaries of the curve.
 const INPUT: Matrix = [[0.597_19, 0.354_58, 0.048_23], [0.076_00, 0.908_34, 0.015_66], [0.028_40, 0.133_83, 0.837_77]];

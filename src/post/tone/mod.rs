@@ -165,7 +165,16 @@ impl<'a> ToneMapper<'a> {
             }
             Operator::Sky(sky) => mapped.sky(&sky, adaptation),
         };
-        Ok(Self { width: frame.width, height: frame.height, display: settings.display, view: frame.view, metering, adaptation, exposure, row })
+        Ok(Self {
+            width: frame.width,
+            height: frame.height,
+            display: settings.display,
+            view: frame.view,
+            metering,
+            adaptation,
+            exposure,
+            row,
+        })
     }
 
     /// Width [pixels].
@@ -221,7 +230,11 @@ impl<'a> ToneMapper<'a> {
     /// [`Error::Input`](crate::Error::Input) for [`Display::DisplayP3`], whose primaries a picture cannot have; [`Error::Cancelled`](crate::Error::Cancelled).
     pub fn to_picture(&self, progress: &Progress) -> Result<Picture> {
         if self.display == Display::DisplayP3 {
-            return Err(Error::input("display", self.display.name(), "srgb, rec709 or linear for values in proportion to light (EXR, HDR)"));
+            return Err(Error::input(
+                "display",
+                self.display.name(),
+                "srgb, rec709 or linear for values in proportion to light (EXR, HDR)",
+            ));
         }
         Picture::new(self.width, self.height, self.to_linear(progress)?, ColorSpace::LinRec709, DISPLAY_WHITE, self.view)
     }
@@ -250,11 +263,7 @@ impl<'a> ToneMapper<'a> {
         })
     }
 
-    fn all_rows<T: Copy + Default + Send>(
-        &self,
-        progress: &Progress,
-        fill: impl Fn(usize, &mut [T]) + Sync,
-    ) -> Result<Vec<T>> {
+    fn all_rows<T: Copy + Default + Send>(&self, progress: &Progress, fill: impl Fn(usize, &mut [T]) + Sync) -> Result<Vec<T>> {
         let mut out = vec![T::default(); 3 * self.width * self.height];
         let bands = self.height.div_ceil(ROWS_PER_BAND);
         let parts = progress.parts("tone map", bands);

@@ -180,7 +180,9 @@ impl Operator {
     /// [`Error::Input`] that names the number.
     pub fn validate(&self) -> Result<()> {
         let mut copy = *self;
-        copy.fields().into_iter().try_for_each(|field| check_range(field.name, *field.value, field.low, field.high, "").map(|_| ()))
+        copy.fields()
+            .into_iter()
+            .try_for_each(|field| check_range(field.name, *field.value, field.low, field.high, "").map(|_| ()))
     }
 }
 

@@ -57,7 +57,8 @@ impl ReinhardLocal {
         let scales = self.scales.round() as usize;
         let parts = progress.parts("tone map", scales + 1);
         // exp(-r^2 / (alpha s)^2) has a standard deviation of alpha s / sqrt 2 along an axis.
-        let at_scale = |s: f64| blurred(&luminance, frame.width, super::edges(frame), s / (2.0 * 2f64.sqrt()) / 2f64.sqrt(), |_| 1.0);
+        let at_scale =
+            |s: f64| blurred(&luminance, frame.width, super::edges(frame), s / (2.0 * 2f64.sqrt()) / 2f64.sqrt(), |_| 1.0);
         let mut centre = at_scale(1.0);
         parts.finish_one()?;
         let mut chosen = centre.clone();
@@ -74,13 +75,7 @@ impl ReinhardLocal {
                     *chosen = *centre;
                 }
             };
-            chosen
-                .par_iter_mut()
-                .zip(&mut growing)
-                .zip(&centre)
-                .zip(&surround)
-                .with_min_len(1 << 14)
-                .for_each(grow);
+            chosen.par_iter_mut().zip(&mut growing).zip(&centre).zip(&surround).with_min_len(1 << 14).for_each(grow);
             centre = surround;
             parts.finish_one()?;
         }

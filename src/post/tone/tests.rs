@@ -66,7 +66,8 @@ fn ramps_stay_ramps() {
 
 #[test]
 fn whatever_comes_in_light_of_a_screen_comes_out() {
-    let nonsense = [0.0, -0.0, 1e-40, f32::MIN_POSITIVE, 1e9, f32::MAX, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -5.0, 1e-6, 0.2];
+    let nonsense =
+        [0.0, -0.0, 1e-40, f32::MIN_POSITIVE, 1e9, f32::MAX, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -5.0, 1e-6, 0.2];
     let count = nonsense.len();
     let mut pixels = Vec::new();
     for a in nonsense {
@@ -96,7 +97,12 @@ fn black_stays_black() {
         let mut half: Vec<f32> = vec![0.0; 40];
         half.extend([5.0; 80]);
         let found = shown(&rows_of(&half), &settings);
-        assert!(found[3 * 8 * 2] == 0.0 && found[3 * 8 * 100] > 0.05, "{settings:?}: {} {}", found[3 * 8 * 2], found[3 * 8 * 100]);
+        assert!(
+            found[3 * 8 * 2] == 0.0 && found[3 * 8 * 100] > 0.05,
+            "{settings:?}: {} {}",
+            found[3 * 8 * 2],
+            found[3 * 8 * 100]
+        );
     }
 }
 
@@ -142,7 +148,10 @@ fn luminance_operators_keep_the_ratios_of_the_channels() {
     for name in [OperatorName::Reinhard, OperatorName::ReinhardLocal, OperatorName::Ashikhmin] {
         for pixel in shown(&picture(40, 1, pixels.clone()), &ToneMapping::with(name)).as_chunks::<3>().0 {
             if pixel[2] < 0.999 && pixel[2] > 1e-3 {
-                assert!((pixel[0] / pixel[2] - 1.0 / 3.0).abs() < 1e-3 && (pixel[1] / pixel[2] - 5.0 / 9.0).abs() < 1e-3, "{name:?} {pixel:?}");
+                assert!(
+                    (pixel[0] / pixel[2] - 1.0 / 3.0).abs() < 1e-3 && (pixel[1] / pixel[2] - 5.0 / 9.0).abs() < 1e-3,
+                    "{name:?} {pixel:?}"
+                );
             }
         }
     }
@@ -210,7 +219,8 @@ fn the_sky_operator_goes_from_noon_to_night_without_a_step() {
     let mut brightness = Vec::new();
     for step in 0..=1300 {
         let adaptation = 10f64.powf(-8.0 + 0.01 * f64::from(step));
-        let pixels: Vec<f32> = colours.iter().flat_map(|colour| colour.map(|value| value * (adaptation / 683.0) as f32)).collect();
+        let pixels: Vec<f32> =
+            colours.iter().flat_map(|colour| colour.map(|value| value * (adaptation / 683.0) as f32)).collect();
         let settings = ToneMapping { adaptation: Some(adaptation), ..ToneMapping::default() };
         let found = shown(&picture(4, 1, pixels), &settings);
         if let Some(last) = &last {
@@ -247,8 +257,13 @@ fn the_aureole_has_gradation_up_to_the_sun_and_nothing_about_it_is_clipped() {
         }
         // In 8 bits, too, the last degrees before the Sun have a grade each, and the brightest of them is not white.
         let grade = |degrees: f64| f64::from(column[row_of(altitude + degrees)]) / 257.0;
-        assert!(grade(0.6) < 254.0 && grade(0.6) - grade(3.0) > 2.0 && grade(3.0) - grade(10.0) > 3.0,
-            "Sun {altitude}: {} {} {}", grade(0.6), grade(3.0), grade(10.0));
+        assert!(
+            grade(0.6) < 254.0 && grade(0.6) - grade(3.0) > 2.0 && grade(3.0) - grade(10.0) > 3.0,
+            "Sun {altitude}: {} {} {}",
+            grade(0.6),
+            grade(3.0),
+            grade(10.0)
+        );
         let white = codes.as_chunks::<3>().0.iter().filter(|pixel| pixel.iter().all(|&code| code >= 65_280)).count();
         // The disc is 0.53 degrees, 3 pixels wide; a latitude-longitude picture stretches it by 1 / cos(altitude).
         assert!(white <= 40, "Sun {altitude}: {white} white pixels");
@@ -278,9 +293,12 @@ fn a_night_looks_like_a_night() {
 fn acuity_blurs_the_dark_and_leaves_the_stars() {
     // A camera of 20 degrees, 100 pixels a degree, at night: fine texture, and a star.
     let (width, height) = (400, 100);
-    let mut pixels: Vec<f32> = (0..width * height).flat_map(|k| [if (k % width) / 4 % 2 == 0 { 1e-4f32 } else { 3e-4 }; 3]).collect();
+    let mut pixels: Vec<f32> =
+        (0..width * height).flat_map(|k| [if (k % width) / 4 % 2 == 0 { 1e-4f32 } else { 3e-4 }; 3]).collect();
     pixels[3 * (50 * width + 200)..][..3].fill(20.0);
-    let fine = Picture::new(width, height, pixels, ColorSpace::LinRec709, 1.0, View::Perspective { horizontal_field_of_view_deg: 4.0 }).unwrap();
+    let fine =
+        Picture::new(width, height, pixels, ColorSpace::LinRec709, 1.0, View::Perspective { horizontal_field_of_view_deg: 4.0 })
+            .unwrap();
     let found = shown(&fine, &ToneMapping::default());
     let at = |x: usize, y: usize| found[3 * (y * width + x) + 1];
     assert!((at(102, 20) / at(106, 20) - 1.0).abs() < 0.05, "{} {}", at(102, 20), at(106, 20));

@@ -8,9 +8,9 @@
 //! 1 / (2 R sqrt 12) degrees. The paper blurs each place by its own luminance; here the blur is that of the picture's adaptation, and places that are bright enough for the cones stay sharp.
 
 use super::rods::Rods;
+use crate::post::picture::View;
 use crate::post::tone::frame::{Frame, exposed};
 use crate::post::tone::gaussian::blurred;
-use crate::post::picture::View;
 use rayon::prelude::*;
 
 /// Standard deviation under which a blur is not seen [pixels].

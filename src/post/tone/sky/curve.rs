@@ -117,7 +117,8 @@ mod tests {
         let l = (0.412_221_47 * r + 0.536_332_54 * g + 0.051_445_99 * b).cbrt();
         let m = (0.211_903_5 * r + 0.680_699_55 * g + 0.107_396_96 * b).cbrt();
         let s = (0.088_302_46 * r + 0.281_718_84 * g + 0.629_978_7 * b).cbrt();
-        let (a, b) = (1.977_998_5 * l - 2.428_592_2 * m + 0.450_593_7 * s, 0.025_904_04 * l + 0.782_771_77 * m - 0.808_675_77 * s);
+        let (a, b) =
+            (1.977_998_5 * l - 2.428_592_2 * m + 0.450_593_7 * s, 0.025_904_04 * l + 0.782_771_77 * m - 0.808_675_77 * s);
         b.atan2(a).to_degrees()
     }
 
@@ -125,7 +126,9 @@ mod tests {
     fn glows_keep_the_hue_that_is_seen() {
         // An orange of a sunset, a blue of the zenith, through the whole shoulder.
         let straight = Curve { contrast: 1.0, ..curve() };
-        for (colour, mixed_beyond) in [([1.0, 0.45, 0.12], 9.0), ([1.0, 0.3, 0.05], 12.0), ([0.15, 0.35, 1.0], 7.0), ([0.3, 0.55, 1.0], 5.0)] {
+        for (colour, mixed_beyond) in
+            [([1.0, 0.45, 0.12], 9.0), ([1.0, 0.3, 0.05], 12.0), ([0.15, 0.35, 1.0], 7.0), ([0.3, 0.55, 1.0], 5.0)]
+        {
             let (mut worst, mut worst_mixed) = (0.0f32, 0.0f32);
             for light in [0.5, 1.0, 3.0, 10.0, 30.0, 100.0] {
                 let shown = straight.colour(colour.map(|value| value * light));

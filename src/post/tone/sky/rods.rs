@@ -42,7 +42,8 @@ static WEIGHTS: LazyLock<[f64; 3]> = LazyLock::new(|| {
         }
         sums
     };
-    let lights = [seen(&|wavelength| planck(wavelength, 5000.0)), seen(&|wavelength| planck(wavelength, 5000.0) * wavelength.powi(-4))];
+    let lights =
+        [seen(&|wavelength| planck(wavelength, 5000.0)), seen(&|wavelength| planck(wavelength, 5000.0) * wavelength.powi(-4))];
     // All weights that are right for both lights: one of them, and any multiple of the direction that neither light notices.
     let [a, b] = lights.map(|[x, y, z, _]| glam::DVec3::new(x, y, z));
     let free = a.cross(b);
