@@ -494,3 +494,57 @@ fn glare_reads_a_picture_writes_another_and_tells_what_it_did() {
     assert!(text(&run.stderr).contains("cut.exr: not a sound OpenEXR file"), "{}", text(&run.stderr));
     assert_eq!(files(folder.path()).len(), before.len() + 1);
 }
+
+#[test]
+fn pictures_are_brought_to_a_screen_one_by_one_all_ways_and_in_sequence() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| tool(folder.path(), &[&["tonemap"], arguments].concat());
+    let made = tool(
+        folder.path(),
+        &[&["render"], &SUN[..], &["--quality", "draft", "--width", "64", "-o", "a.exr", "-o", "b.hdr"]].concat(),
+    );
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    let told = run(&["a.exr", "a.png"]);
+    assert!(told.status.success(), "{}", text(&told.stderr));
+    assert!(text(&told.stdout).starts_with("a.png: 64 x 32, sky, adapted to "), "{}", text(&told.stdout));
+    for arguments in [
+        &["b.hdr", "b.png", "--operator", "filmic", "--set", "contrast=2.8", "--exposure", "1", "--depth", "16"][..],
+        &["a.exr", "shown.exr", "--operator", "reinhard", "--display", "linear"],
+        &["a.exr", "camera.png", "--operator", "aces", "--aperture", "8", "--shutter", "0.004", "--display", "display_p3"],
+        &["a.exr", "sheet.png", "--compare"],
+    ] {
+        let told = run(arguments);
+        assert!(told.status.success(), "{arguments:?}: {}", text(&told.stderr));
+    }
+    assert_eq!(image::open(folder.path().join("b.png")).unwrap().color(), image::ColorType::Rgb16);
+    assert_eq!(image::open(folder.path().join("a.png")).unwrap().color(), image::ColorType::Rgb8);
+    let sheet = image::open(folder.path().join("sheet.png")).unwrap().to_rgb8();
+    assert!(sheet.width() > 3 * 64 && sheet.height() > 3 * 32);
+    let shown = skyprobe::io::read_picture(folder.path().join("shown.exr"), &Default::default()).unwrap();
+    assert!(shown.pixels.iter().all(|value| (0.0..=1.0).contains(value)) && shown.white_luminance == 80.0);
+
+    std::fs::create_dir(folder.path().join("film")).unwrap();
+    assert!(run(&["a.exr", "b.hdr", "film"]).status.success());
+    assert_eq!(files(&folder.path().join("film")), ["a.png", "b.png"]);
+
+    for (arguments, part) in [
+        (&["a.exr", "x.png", "--operator", "drago"][..], "operator = \"drago\": must be one of sky"),
+        (&["a.exr", "x.png", "--set", "key"], "set = \"key\": must be NAME=VALUE"),
+        (&["a.exr", "x.png", "--set", "white=1"], "white = 1: must be left out: the operator sky has key"),
+        (&["a.exr", "x.png", "--ev", "99"], "ev100 = 99: must be"),
+        (&["a.exr", "x.png", "--depth", "12"], "depth = 12: must be 8 or 16"),
+        (&["a.exr", "x.exr", "--compare"], "output = x.exr: must be"),
+        (&["a.exr", "x.hdr", "--display", "display_p3"], "display = display_p3: must be"),
+        (&["a.exr", "b.hdr", "x.png"], "output = x.png: must be an existing folder for 2 pictures"),
+        (&["a.exr", "a.exr", "film"], "input = a.exr: must be of another name"),
+        (&["a.exr", ".", "--format", "exr"], "must be another file than the input"),
+        (&["nowhere.exr", "x.png"], "nowhere.exr"),
+        (&["a.exr", "x.png", "--aperture", "8"], "--shutter"),
+    ] {
+        let answer = run(arguments);
+        assert!(matches!(answer.status.code(), Some(1 | 2)), "{arguments:?}");
+        let complaint = text(&answer.stderr);
+        assert!(complaint.contains(part) && complaint.trim_end().lines().count() == 1, "{arguments:?}: {complaint}");
+        assert!(!folder.path().join("x.png").exists() && !folder.path().join("x.exr").exists());
+    }
+}

@@ -35,6 +35,9 @@ _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
 _Model: TypeAlias = Literal["scattering", "preetham", "thesis", "thesis_single"]
 _PhaseName: TypeAlias = Literal["new", "first quarter", "full", "last quarter"]
 _CoordinateStyle: TypeAlias = Literal["decimal", "minutes", "seconds"]
+_Operator: TypeAlias = Literal[
+    "sky", "filmic", "aces", "exposure", "reinhard", "reinhard_local", "ashikhmin", "logarithmic", "linear"
+]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -924,6 +927,7 @@ class Sky:
         separate_layers: bool = False,
         half: bool | Literal["off", "refuse", "scale"] | None = None,
         exposure_stops: float = 0.0,
+        operator: _Operator = "sky",
         progress: _Progress | None = None,
     ) -> None:
         """Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
@@ -937,7 +941,7 @@ class Sky:
             As for ``render``.
         separate_layers
             Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
-        half, exposure_stops
+        half, exposure_stops, operator
             As for ``Probe.save``.
         progress
             Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
@@ -1014,6 +1018,7 @@ class Probe:
         *,
         half: bool | Literal["off", "refuse", "scale"] | None = None,
         exposure_stops: float = 0.0,
+        operator: _Operator = "sky",
     ) -> None:
         """Write the probe; the file appears whole or not at all.
 
@@ -1026,6 +1031,8 @@ class Probe:
             "scale": all pixels are multiplied by a power of two, which the header states.
         exposure_stops
             Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
+        operator
+            Tone mapping operator of a PNG, as in ``skyprobe.post.tone_map``.
         """
 
     def irradiance(self, normal: ArrayLike | None = None) -> tuple[float, float, float]:
@@ -1354,3 +1361,149 @@ def point_spread_function(state: str, angles_deg: ArrayLike, wavelengths_nm: Arr
     wavelengths_nm
         300 to 1000. Only the lenticular halo of the mesopic and the scotopic eye depends on them. [nm]
     """
+
+@final
+class Metering:
+    """Luminances of a picture as a meter and an eye see them: of a probe the upper half, by solid angle. Averages leave out the brightest 2 % and what is nearly black."""
+
+    @property
+    def log_average(self) -> float:
+        """Mean of the logarithm: the middle of the picture. [cd m-2]"""
+
+    @property
+    def bright(self) -> float:
+        """95th percentile. [cd m-2]"""
+
+    @property
+    def lowest(self) -> float:
+        """Smallest luminance of all pixels. [cd m-2]"""
+
+    @property
+    def highest(self) -> float:
+        """Largest luminance of all pixels. [cd m-2]"""
+
+    @property
+    def adaptation(self) -> float:
+        """Luminance that the eye of the operator "sky" adapts to: the geometric mean of ``log_average`` and ``bright``. [cd m-2]"""
+
+    @property
+    def ev100(self) -> float:
+        """Exposure value at ISO 100 of automatic exposure, which makes ``log_average`` 0.18."""
+
+    @property
+    def meter_ev100(self) -> float:
+        """Exposure value at ISO 100 that a reflected-light meter shows for ``log_average`` (ISO 2720, K = 12.5): 0.79 more than ``ev100``."""
+
+@final
+class ToneReport:
+    """What ``tone_map`` did to a picture."""
+
+    @property
+    def metering(self) -> Metering:
+        """Luminances of the picture."""
+
+    @property
+    def adaptation(self) -> float:
+        """Luminance that the picture was exposed for. [cd m-2]"""
+
+    @property
+    def ev100(self) -> float:
+        """Exposure value at ISO 100."""
+
+    @property
+    def repairs(self) -> tuple[int, int, int]:
+        """How many values were no light and were repaired: not a number, infinite, denormal."""
+
+@final
+class Adaptation:
+    """An eye that takes time, for sequences of pictures without flicker. It follows the logarithm of luminance through two equal stages.
+
+    Parameters
+    ----------
+    light_s, dark_s
+        Time constants of adaptation to light and to darkness, 0.001 to 1e5. [s]
+    """
+
+    def __new__(cls, light_s: float = 0.5, dark_s: float = 1.0) -> Adaptation: ...
+    @staticmethod
+    def eye() -> Adaptation:
+        """Return a real eye's: 0.4 s towards light, 110 s towards darkness."""
+
+    def step(self, luminance: float, seconds: float) -> float:
+        """Go on by a time during which the picture has this metered luminance, and return what the eye is adapted to then. The first step takes the picture's own.
+
+        Parameters
+        ----------
+        luminance
+            Such as ``auto_exposure(pixels).adaptation``. [cd m-2]
+        seconds
+            0 to 1e9. [s]
+        """
+
+    @property
+    def luminance(self) -> float | None:
+        """What the eye is adapted to; None before the first step. [cd m-2]"""
+
+    def reset(self) -> None:
+        """Forget all, as at a cut."""
+
+def tone_map(
+    pixels: ArrayLike,
+    operator: _Operator = "sky",
+    *,
+    exposure_stops: float = 0.0,
+    ev100: float | None = None,
+    aperture: float | None = None,
+    shutter_s: float | None = None,
+    iso: float = 100.0,
+    adaptation: float | None = None,
+    display: Literal["srgb", "display_p3", "rec709", "linear"] = "srgb",
+    bits: Literal[8, 16] | None = ...,
+    projection: str = "perspective",
+    field_of_view_deg: float | None = None,
+    rows: str = "centre",
+    white_luminance: float = 683.0,
+    color_space: str = "lin_rec709",
+    progress: _Progress | None = None,
+    **numbers: float,
+) -> tuple[NDArray[numpy.uint8] | NDArray[numpy.uint16] | NDArray[numpy.float32], ToneReport]:
+    """Bring a picture to a screen: returns the new picture, shape (H, W, 3), and what was done.
+
+    Parameters
+    ----------
+    pixels
+        Linear values, shape (H, W, 3), row 0 at the top. Values that are no light (not a number, infinite) are repaired.
+    operator
+        "sky" (made for skies by day and night), "filmic" (in the manner of AgX), "aces" (fitted), "exposure" (1 - exp(-light)), "reinhard", "reinhard_local",
+        "ashikhmin", "logarithmic" or "linear".
+    exposure_stops
+        Exposure relative to the automatic one, -20 to 20. [stops]
+    ev100
+        Exposure by hand: exposure value at ISO 100, -24 to 36; white is 1.2 * 2**ev100 cd m-2.
+    aperture, shutter_s, iso
+        Exposure as of a camera: f-number, 0.5 to 128; shutter time, 1e-6 to 1e5 [s]; sensitivity, 1 to 1e7.
+    adaptation
+        Luminance that the eye ("sky") or the meter is adapted to, 1e-8 to 1e9; that of the picture by default. [cd m-2]
+    display
+        What shows the picture.
+    bits
+        8 (uint8, dithered; the default), 16 (uint16), or None for the light of the screen, float32 from 0 to 1.
+    projection, field_of_view_deg, rows, white_luminance, color_space
+        As for ``glare``.
+    progress
+        ``progress(stage, fraction)``; returning False raises ``Cancelled``.
+    **numbers
+        Numbers of the operator. sky: key, darkening, rods, blue_shift, acuity_loss, colour_contrast, shoulder; filmic: contrast, inset, power; reinhard: white; reinhard_local:
+        sharpening, threshold, scales; ashikhmin: threshold, largest_scale, stretch; logarithmic: white, middle; linear: white.
+    """
+
+def auto_exposure(
+    pixels: ArrayLike,
+    *,
+    projection: str = "perspective",
+    field_of_view_deg: float | None = None,
+    rows: str = "centre",
+    white_luminance: float = 683.0,
+    color_space: str = "lin_rec709",
+) -> Metering:
+    """Meter a picture: its luminances, and the exposure that suits them. Parameters as for ``glare``."""

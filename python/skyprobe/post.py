@@ -8,9 +8,29 @@
 >>> report.state
 'photopic'
 
+>>> picture, report = post.tone_map(pixels, "sky", projection="latlong")
+>>> picture.dtype, picture.shape
+(dtype('uint8'), (256, 512, 3))
+
+A time-lapse is exposed by an eye that takes time:
+
+>>> eye = post.Adaptation(light_s=0.5, dark_s=1.0)
+>>> for frame in [pixels, 0.5 * pixels]:
+...     luminance = eye.step(post.auto_exposure(frame, projection="latlong").adaptation, seconds=1 / 24)
+...     picture, report = post.tone_map(frame, adaptation=luminance, projection="latlong")
+
 Arrays are linear, float32, of shape (H, W, 3), row 0 at the top; what is given is never changed.
 """
 
-from ._core import GlareReport, glare, point_spread_function
+from ._core import Adaptation, GlareReport, Metering, ToneReport, auto_exposure, glare, point_spread_function, tone_map
 
-__all__ = ["GlareReport", "glare", "point_spread_function"]
+__all__ = [
+    "Adaptation",
+    "GlareReport",
+    "Metering",
+    "ToneReport",
+    "auto_exposure",
+    "glare",
+    "point_spread_function",
+    "tone_map",
+]

@@ -11,6 +11,7 @@ mod picture_options;
 mod places;
 mod render;
 mod terminal;
+mod tonemap;
 
 use crate::error::{Error, Result};
 use clap::error::ErrorKind;
@@ -36,6 +37,8 @@ enum Command {
     Places(places::Options),
     /// Add the glare of the eye to a picture: a probe, or a scene that it lit.
     Glare(Box<glare::Options>),
+    /// Bring a picture to a screen: a probe, or a scene that it lit, by one of nine operators; or a whole sequence without flicker.
+    Tonemap(Box<tonemap::Options>),
 }
 
 const EXIT_CODES: &str = "\
@@ -52,6 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             Command::Info(options) => info::run(&options),
             Command::Places(options) => places::run(&options),
             Command::Glare(options) => glare::run(&options),
+            Command::Tonemap(options) => tonemap::run(&options),
         },
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             // A closed pipe (`skyprobe --help | head`) is not worth a complaint.

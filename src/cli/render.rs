@@ -99,6 +99,10 @@ pub struct Options {
     /// Exposure of PNG files relative to the automatic one, -20 to 20 [stops]. Default: 0.
     #[arg(long, value_name = "STOPS", help_heading = OUTPUT)]
     exposure: Option<f64>,
+    /// Tone mapping operator of PNG files: sky, filmic, aces, exposure, reinhard, reinhard_local, ashikhmin, logarithmic or linear. Default: sky.
+    /// More choices: skyprobe tonemap, on an EXR or HDR file.
+    #[arg(long, value_name = "NAME", help_heading = OUTPUT)]
+    operator: Option<String>,
     #[command(flatten)]
     config: ConfigOptions,
 }
@@ -202,6 +206,9 @@ impl Options {
             config.file.half = name.parse()?;
         }
         config.file.exposure_stops = self.exposure.unwrap_or(config.file.exposure_stops);
+        if let Some(name) = &self.operator {
+            config.file.operator = name.parse()?;
+        }
         config.validate()?;
         if let Some(path) = &self.sample_map {
             SampleMap::check_name(path)?;

@@ -18,13 +18,16 @@ pub use atomic::{check_writable, write_atomically};
 pub use config::Config;
 pub use describe::describe;
 pub use metadata::Metadata;
+pub use png::Depth;
 pub use read::{PictureHints, read_picture};
 pub use sample_map::SampleMap;
 pub use stream::render_to_files;
-pub use write::write_picture;
+pub use write::{write_picture, write_sheet, write_toned};
 
 use crate::error::{Error, Result};
+use crate::post::tone::{Exposure, Frame, OperatorName, ToneMapper, ToneMapping};
 use crate::probe::{Probe, ProbeSettings, Projection};
+use crate::progress::Progress;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::str::FromStr;
@@ -65,9 +68,22 @@ pub struct FileOptions {
     pub half: Half,
     /// Exposure of a PNG relative to the automatic one [stops], -20 to 20.
     pub exposure_stops: f64,
+    /// Tone mapping operator of a PNG.
+    pub operator: OperatorName,
     /// Whether an EXR file holds each layer of the light ([`Layer`](crate::sky::Layer)) beside their sum, in channels such as `stars.R`. Colours outside the
     /// space are then dealt with layer by layer.
     pub layers: bool,
+}
+
+impl FileOptions {
+    /// How a probe is brought to a PNG.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an exposure out of range.
+    fn tone_mapping(&self) -> Result<ToneMapping> {
+        crate::error::check_range("exposure_stops", self.exposure_stops, -20.0, 20.0, "stops")?;
+        Ok(ToneMapping { exposure: Exposure::Automatic { stops: self.exposure_stops }, ..ToneMapping::with(self.operator) })
+    }
 }
 
 /// A kind of file, by the suffix of its name.
@@ -112,10 +128,13 @@ pub fn check_output(path: impl AsRef<Path>) -> Result<()> {
 /// [`Error::Input`] for an unknown suffix, options out of range, or pixels that half floats cannot hold; [`Error::File`].
 pub fn save(path: impl AsRef<Path>, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
     let path = path.as_ref();
-    crate::error::check_range("exposure_stops", options.exposure_stops, -20.0, 20.0, "stops")?;
+    let tone = options.tone_mapping()?;
     probe.validate()?;
     match Format::of(path)? {
-        Format::Png => write_atomically(path, |file| png::write(file, path, probe, options.exposure_stops)),
+        Format::Png => {
+            let mapper = ToneMapper::new(Frame::from(probe), &tone, &Progress::silent())?;
+            write_toned(path, &mapper, Depth::Eight, &Progress::silent())
+        }
         Format::Exr | Format::Hdr => stream::write_probe(path, probe, options, metadata),
     }
 }

@@ -4,7 +4,9 @@ use super::atomic::Pending;
 use super::exr::{self, Packing};
 use super::{FileOptions, Format, Half, Metadata, hdr, png};
 use crate::error::{Error, Result};
+use crate::post::tone::{Frame, ToneMapper, ToneMapping};
 use crate::probe::{Probe, ProbeSettings};
+use crate::progress::Progress;
 use std::fs::File;
 use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -38,7 +40,7 @@ pub struct RowFile {
     out: BufWriter<File>,
     encoder: Encoder,
     settings: ProbeSettings,
-    exposure_stops: f64,
+    tone: ToneMapping,
     /// Where the next piece begins [bytes].
     position: u64,
     /// Where each piece begins.
@@ -60,7 +62,7 @@ impl RowFile {
         largest: impl FnOnce() -> Result<exr::Largest>,
     ) -> Result<Self> {
         let format = Format::of(path)?;
-        crate::error::check_range("exposure_stops", options.exposure_stops, -20.0, 20.0, "stops")?;
+        let tone = options.tone_mapping()?;
         let (width, height) = (settings.width, settings.height());
         let (encoder, head) = match format {
             Format::Exr => {
@@ -83,7 +85,7 @@ impl RowFile {
             out,
             encoder,
             settings: settings.clone(),
-            exposure_stops: options.exposure_stops,
+            tone,
             position: head.len() as u64,
             offsets: Vec::new(),
             pixels: Vec::new(),
@@ -128,7 +130,8 @@ impl RowFile {
             Encoder::Hdr { .. } => {}
             Encoder::Png => {
                 let probe = Probe::new(std::mem::take(&mut self.pixels), self.settings.clone())?;
-                png::write(&mut self.out, &self.path, &probe, self.exposure_stops)?;
+                let mapper = ToneMapper::new(Frame::from(&probe), &self.tone, &Progress::silent())?;
+                png::write_mapped(&mut self.out, &self.path, &mapper, png::Depth::Eight, &Progress::silent())?;
             }
         }
         self.out.flush().map_err(failed)?;

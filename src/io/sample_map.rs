@@ -2,11 +2,10 @@
 
 use super::{Format, png, write_atomically};
 use crate::error::{Error, Result};
+use crate::post::tone::{Display, Frame, ToneMapper, ToneMapping};
 use crate::probe::{self, ProbeSettings};
 use crate::progress::Progress;
 use crate::sky::SkyDome;
-use image::ImageEncoder;
-use image::codecs::png::PngEncoder;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -31,7 +30,8 @@ impl SampleMap {
     /// As [`probe::render`].
     pub fn new(dome: &SkyDome, width: usize, progress: &Progress) -> Result<Self> {
         let probe = probe::render(dome, &ProbeSettings { width, sun_disc: false, ..Default::default() }, progress)?;
-        let mut pixels: Vec<u8> = png::tone_map(&probe, 0.0).into_iter().map(|value| value / 3).collect();
+        let mapper = ToneMapper::new(Frame::from(&probe), &ToneMapping::default(), progress)?;
+        let mut pixels: Vec<u8> = mapper.to_8_bits(progress)?.into_iter().map(|value| value / 3).collect();
         let (width, height, size) = (probe.width, probe.height, 1 + width / PIXELS_PER_POINT);
         for [altitude, azimuth] in dome.sample_directions() {
             let across = ((0.25 + azimuth / TAU).rem_euclid(1.0) * width as f64) as usize;
@@ -53,11 +53,7 @@ impl SampleMap {
     /// [`Error::Input`] for a name that does not end in .png, [`Error::File`].
     pub fn save(&self, path: &Path) -> Result<()> {
         Self::check_name(path)?;
-        write_atomically(path, |out| {
-            PngEncoder::new(out)
-                .write_image(&self.pixels, self.width as u32, self.height as u32, image::ExtendedColorType::Rgb8)
-                .map_err(|error| Error::file(path, error))
-        })
+        write_atomically(path, |out| png::write_8(out, path, (self.width, self.height), Display::Srgb, &self.pixels))
     }
 
     /// Checks that `path` names a PNG.

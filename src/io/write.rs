@@ -1,8 +1,10 @@
 //! Pictures to files: EXR (float32, ZIP) or Radiance HDR, with headers that [`read_picture`](super::read_picture) understands.
 
 use super::exr::{self, Packing};
+use super::png::{self, Depth};
 use super::{Format, hdr, write_atomically};
 use crate::error::{Error, Result};
+use crate::post::tone::{Display, Sheet, ToneMapper};
 use crate::post::{Picture, View};
 use crate::progress::Progress;
 use std::io::Write;
@@ -21,6 +23,34 @@ pub fn write_picture(path: impl AsRef<Path>, picture: &Picture, progress: &Progr
         Format::Exr => write_exr(path, picture, progress),
         Format::Hdr => write_hdr(path, picture, progress),
         Format::Png => Err(Error::input("output", path.display(), "the name of a file that ends in .exr or .hdr")),
+    }
+}
+
+/// Writes what `mapper` shows to `path`, whole or not at all: `.png` with `depth`, or light of the screen as `.exr` or `.hdr`.
+///
+/// # Errors
+/// [`Error::Input`] for another suffix, and for light of a display whose primaries a picture cannot have; [`Error::File`]; [`Error::Cancelled`].
+pub fn write_toned(path: impl AsRef<Path>, mapper: &ToneMapper<'_>, depth: Depth, progress: &Progress<'_>) -> Result<()> {
+    let path = path.as_ref();
+    match Format::of(path)? {
+        Format::Png => write_atomically(path, |file| png::write_mapped(file, path, mapper, depth, progress)),
+        Format::Exr | Format::Hdr => write_picture(path, &mapper.to_picture(progress)?, progress),
+    }
+}
+
+/// Writes a contact sheet for `display` to the PNG `path`, whole or not at all.
+///
+/// # Errors
+/// [`Error::Input`] for another suffix; [`Error::File`].
+pub fn write_sheet(path: impl AsRef<Path>, sheet: &Sheet, display: Display) -> Result<()> {
+    let path = path.as_ref();
+    match Format::of(path)? {
+        Format::Png => {
+            write_atomically(path, |file| png::write_8(file, path, (sheet.width, sheet.height), display, &sheet.pixels))
+        }
+        Format::Exr | Format::Hdr => {
+            Err(Error::input("output", path.display(), "the name of a file that ends in .png for a contact sheet"))
+        }
     }
 }
 

@@ -6,5 +6,6 @@
 
 pub mod glare;
 pub mod picture;
+pub mod tone;
 
 pub use picture::{Picture, PictureProjection, Repairs, View};

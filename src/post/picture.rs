@@ -1,7 +1,7 @@
 //! A linear picture with what its numbers and its pixels mean: all that glare and tone mapping need to know.
 
 use crate::error::{Error, Result, check_range};
-use crate::probe::{Extent, Probe, Projection, Rows};
+use crate::probe::{Extent, Probe, ProbeSettings, Projection, Rows};
 use crate::spectrum::color_space::ColorSpace;
 use crate::units::Scale;
 use rayon::prelude::*;
@@ -80,6 +80,19 @@ impl FromStr for PictureProjection {
 }
 
 impl View {
+    /// The view of a probe with `settings`, which a fisheye shows in full.
+    pub fn of(settings: &ProbeSettings) -> Self {
+        match settings.projection {
+            Projection::LatLong => Self::LatLong { rows: settings.rows },
+            Projection::Fisheye => Self::Fisheye {
+                field_of_view_deg: match settings.extent {
+                    Extent::Full => 360.0,
+                    Extent::Upper => 180.0,
+                },
+            },
+        }
+    }
+
     /// Its kind.
     pub const fn projection(self) -> PictureProjection {
         match self {
@@ -196,18 +209,10 @@ impl Picture {
 }
 
 impl From<Probe> for Picture {
-    /// The picture of a probe, which a fisheye shows in full.
+    /// The picture of a probe.
     fn from(probe: Probe) -> Self {
         let settings = &probe.settings;
-        let view = match settings.projection {
-            Projection::LatLong => View::LatLong { rows: settings.rows },
-            Projection::Fisheye => View::Fisheye {
-                field_of_view_deg: match settings.extent {
-                    Extent::Full => 360.0,
-                    Extent::Upper => 180.0,
-                },
-            },
-        };
+        let view = View::of(settings);
         let (color_space, white_luminance) = (settings.color_space, Scale::white_luminance(settings.scale));
         Self { width: probe.width, height: probe.height, pixels: probe.pixels, color_space, white_luminance, view }
     }

@@ -15,6 +15,7 @@ mod post;
 mod probe;
 mod results;
 mod sky;
+mod tone;
 mod work;
 
 use pyo3::prelude::*;
@@ -57,6 +58,11 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<post::Report>()?;
     module.add_function(wrap_pyfunction!(post::glare, module)?)?;
     module.add_function(wrap_pyfunction!(post::point_spread_function, module)?)?;
+    module.add_class::<tone::Metering>()?;
+    module.add_class::<tone::ToneReport>()?;
+    module.add_class::<tone::Adaptation>()?;
+    module.add_function(wrap_pyfunction!(tone::tone_map, module)?)?;
+    module.add_function(wrap_pyfunction!(tone::auto_exposure, module)?)?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(run_command_line, module)?)?;
     Ok(())

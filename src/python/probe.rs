@@ -132,10 +132,24 @@ impl Probe {
     ///     "scale": all pixels are multiplied by a power of two, which the header states.
     /// exposure_stops
     ///     Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
-    #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0))]
-    fn save(&self, py: Python<'_>, path: PathBuf, half: Option<&Bound<'_, PyAny>>, exposure_stops: f64) -> PyResult<()> {
+    /// operator
+    ///     Tone mapping operator of a PNG, as in ``skyprobe.post.tone_map``.
+    #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0, operator = "sky"))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        half: Option<&Bound<'_, PyAny>>,
+        exposure_stops: f64,
+        operator: &str,
+    ) -> PyResult<()> {
         let probe = self.snapshot(py)?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, layers: false };
+        let options = FileOptions {
+            half: half.map_or(Ok(Half::Off), read_half)?,
+            exposure_stops,
+            operator: operator.parse()?,
+            layers: false,
+        };
         work::run(py, None, |_| io::save(&path, &probe, &options, &self.metadata))
     }
 

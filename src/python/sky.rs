@@ -432,13 +432,13 @@ impl Sky {
     ///     As for ``render``.
     /// separate_layers
     ///     Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
-    /// half, exposure_stops
+    /// half, exposure_stops, operator
     ///     As for ``Probe.save``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
     #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
         scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, layers = None,
-        separate_layers = false, half = None, exposure_stops = 0.0, progress = None))]
+        separate_layers = false, half = None, exposure_stops = 0.0, operator = "sky", progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render_to_file(
         &self,
@@ -459,11 +459,17 @@ impl Sky {
         separate_layers: bool,
         half: Option<&Bound<'_, PyAny>>,
         exposure_stops: f64,
+        operator: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
-        let options = FileOptions { half: half.map_or(Ok(Half::Off), read_half)?, exposure_stops, layers: separate_layers };
+        let options = FileOptions {
+            half: half.map_or(Ok(Half::Off), read_half)?,
+            exposure_stops,
+            operator: operator.parse()?,
+            layers: separate_layers,
+        };
         check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
         if separate_layers && Format::of(&path)? != Format::Exr {
             return Err(InputError::new_err("separate_layers = True: must be False for a file that is not .exr"));

@@ -45,6 +45,11 @@ impl Chromaticities {
         let is = |space: &ColorSpace| flat(&space.chromaticities()).iter().zip(&own).all(|(a, b)| (a - b).abs() < 1e-3);
         [ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz].into_iter().find(is)
     }
+
+    /// The inverse of [`Self::matrix_to_xyz`].
+    pub fn matrix_from_xyz(&self) -> Matrix {
+        inverse(&self.matrix_to_xyz())
+    }
 }
 
 /// A linear colour space.
@@ -181,11 +186,13 @@ fn transpose(m: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
+/// `a` times `b`.
+pub(crate) fn product(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-fn inverse(m: &Matrix) -> Matrix {
+/// The inverse of `m`.
+pub(crate) fn inverse(m: &Matrix) -> Matrix {
     let cofactor = |i: usize, j: usize| {
         let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
         m[a][c] * m[b][d] - m[a][d] * m[b][c]

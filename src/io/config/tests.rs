@@ -1,6 +1,7 @@
 use super::*;
 use crate::atmosphere::{AerosolType, Ground, Preset, Surface};
 use crate::io::Half;
+use crate::post::tone::OperatorName;
 use crate::probe::{Extent, GroundView, Projection, Rows};
 use crate::sky::LayerScales;
 use crate::spectrum::{ColorSpace, Gamut};
@@ -166,7 +167,8 @@ fn any_config() -> impl Strategy<Value = Config> {
     let sun = (-90.0..=90.0_f64, -360.0..=360.0_f64);
     let sky = prop_oneof![place.prop_map(Ok), sun.prop_map(Err)];
     let zone = optional(select(vec!["Europe/Stockholm".to_string(), "UTC".to_string()]));
-    let files = (select(vec![Half::Off, Half::Refuse, Half::Scale]), -20.0..=20.0_f64, any::<bool>());
+    let files =
+        (select(vec![Half::Off, Half::Refuse, Half::Scale]), -20.0..=20.0_f64, select(OperatorName::ALL.to_vec()), any::<bool>());
     let output = proptest::collection::vec("[a-z ]{1,8}\\.exr".prop_map(PathBuf::from), 0..3);
     (
         sky,
@@ -179,16 +181,18 @@ fn any_config() -> impl Strategy<Value = Config> {
         files,
         output,
     )
-        .prop_map(|(sky, zone, elevation_m, sun_model, atmosphere, probe, light, (half, exposure_stops, layers), output)| {
-            let file = FileOptions { half, exposure_stops, layers };
-            let common = Config { elevation_m, zone, sun_model, light, atmosphere, probe, file, output, ..Config::default() };
-            match sky {
-                Ok((latitude, longitude, time)) => {
-                    Config { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
+        .prop_map(
+            |(sky, zone, elevation_m, sun_model, atmosphere, probe, light, (half, exposure_stops, operator, layers), output)| {
+                let file = FileOptions { half, exposure_stops, operator, layers };
+                let common = Config { elevation_m, zone, sun_model, light, atmosphere, probe, file, output, ..Config::default() };
+                match sky {
+                    Ok((latitude, longitude, time)) => {
+                        Config { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
+                    }
+                    Err((altitude_deg, azimuth_deg)) => Config { sun: Some(SunPosition { altitude_deg, azimuth_deg }), ..common },
                 }
-                Err((altitude_deg, azimuth_deg)) => Config { sun: Some(SunPosition { altitude_deg, azimuth_deg }), ..common },
-            }
-        })
+            },
+        )
 }
 
 proptest! {
