@@ -28,7 +28,7 @@ MOON = (0.90, 0.92, 0.97, 1.0)
 MOON_SHADE = (0.30, 0.33, 0.40, 1.0)
 
 # Labels are told by their importance: where two would touch, the lesser one is left out.
-FIRST, SECOND, THIRD, LAST = range(4)
+NOW, FIRST, SECOND, THIRD, LAST = range(5)
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ class _Maker:
             self.scenery.markers.append(Marker(self._point(direction), radius, (*color[:3], alpha), shade, **moonlike))
             text = f"Sun {clock}" if name == "Sun" else f"Moon {lit:.0%}"
             color = (*(SUN_TEXT if name == "Sun" else TEXT)[:3], 0.45 + 0.55 * up)
-            self._label(text, direction, color, FIRST, 12.0, beside=radius + 7.0)
+            self._label(text, direction, color, NOW, 12.0, beside=radius + 7.0)
 
 
 def _on_ground(degrees, radius):

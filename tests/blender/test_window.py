@@ -82,3 +82,11 @@ def test_a_drawing_that_fails_is_told_once_and_comes_back_with_the_next_change(w
     assert answer == {"calls": 1, "broken": answer["still"], "still": answer["broken"], "mended": None}
     assert "ArithmeticError this drawing fails" in answer["broken"]
     assert printed.count("this drawing fails") == 1 and "Traceback" not in printed
+
+
+def test_the_sun_is_drawn_where_its_lamp_shines_from(windowed, pictures):
+    settings = {"show_diurnal_path": True, "show_north": True, "helper_size": 8.0, "hour": 16.5, "north": 0.6, "elevation_m": 500.0}
+    answer = windowed.run("window_steps.draw_helpers_on_sky", picture=str(pictures / "on_sky.png"), settings=settings)
+    assert answer["failure"] is None
+    # The thesis's Sun, which the curves follow, is within 0.02 degrees of the lamp's.
+    assert answer["angle_deg"] < 0.03, answer

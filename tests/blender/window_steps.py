@@ -415,3 +415,24 @@ def apply(settings):
 def part(name):
     """Return a module of the add-on."""
     return importlib.import_module(f"{PACKAGE}.{name}")
+
+
+def draw_helpers_on_sky(picture, settings):
+    """Light the scene by its sky, look at it rendered with what `settings` switch on, take a picture, and tell where the Sun is drawn and shines from."""
+    enable()
+    yield
+    apply({**settings, "auto_exposure": True})
+    with context("VIEW_3D"):
+        bpy.ops.skyprobe.add()
+    scene = bpy.context.scene
+    while not _has_arrived(sys.modules[f"{PACKAGE}.live"], scene):
+        yield 0.05
+    view = area("VIEW_3D")
+    view.spaces.active.shading.type = "RENDERED"
+    set_view(24.0, 6.0, 20.0, (0.0, 0.0, 4.0))
+    yield 3.0
+    screenshot(picture)
+    drawing = part("viewport_drawing")
+    (sun,) = (marker for marker in drawing._scenery.of(scene.skyprobe).markers if marker.light_from is None)
+    lamp = scene.skyprobe.sun_lamp.matrix_world.to_3x3() @ mathutils.Vector((0.0, 0.0, 1.0))
+    return {"failure": drawing.failure(), "angle_deg": math.degrees(lamp.angle(mathutils.Vector(sun.point)))}
