@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import math
+import pathlib
 from typing import Any
 
 import numpy
@@ -21,6 +23,10 @@ def lamp() -> numpy.ndarray[Any, Any]:
 
 
 def test_names_and_defaults_are_documented() -> None:
+    stubs = ast.parse((pathlib.Path(sp.__file__).parent / "_core.pyi").read_text(encoding="utf-8"))
+    documented = {node.name: ast.get_docstring(node) for node in stubs.body if isinstance(node, ast.FunctionDef)}
+    for function in (post.glare, post.point_spread_function):
+        assert inspect.cleandoc(function.__doc__ or "") == documented[function.__name__]
     assert set(post.__all__) == {name for name in vars(post) if not name.startswith("_")}
     signature = inspect.signature(_core.glare)
     assert signature.parameters["size"].default == 2.0 and signature.parameters["state"].default == "auto"

@@ -100,7 +100,38 @@ pub fn picture(
     Ok(Picture::new(width, height, values, color_space.parse()?, white_luminance, view)?)
 }
 
-/// Add the glare of the eye; see ``skyprobe.post.glare``.
+/// Add the glare of the eye to a picture (Spencer et al. 1995): returns the new picture and what was done.
+///
+/// Parameters
+/// ----------
+/// pixels
+///     Linear values, shape (H, W, 3), row 0 at the top. Values that are no light (not a number, infinite) are repaired, not spread.
+/// projection
+///     "perspective", "latlong" (a probe: 2:1, or 4:1 for its upper half) or "fisheye".
+/// field_of_view_deg
+///     Of a perspective picture the angle between left and right border (39.6 by default, as Blender's first camera), of a fisheye that of its width (180). [degrees]
+/// rows
+///     Of a latlong picture: "centre" or "corner".
+/// white_luminance
+///     Luminance of a pixel of value 1: 683 in the scale "blender", 1 in "luminance". [cd m-2]
+/// color_space
+///     "lin_rec709", "acescg", "lin_rec2020" or "xyz".
+/// state
+///     "photopic", "mesopic", "scotopic", or "auto" by the mean luminance: photopic above 5 cd m-2, scotopic below 0.005.
+/// threshold
+///     Light above this luminance glares; by default 20 times the mean luminance. [cd m-2]
+/// whole_pixels
+///     With a threshold: all light of the brighter pixels glares, not only what exceeds it.
+/// all_light
+///     All light glares.
+/// size
+///     Width and height of the filter in widths and heights of the picture, 0.01 to 2. A latlong picture always has all of it.
+/// seed
+///     Draws the streaks.
+/// streaks
+///     Their contrast, 0 (none) to 1 (lines on black, as in the thesis).
+/// progress
+///     ``progress(stage, fraction)``; returning False raises ``Cancelled``.
 #[pyfunction]
 #[pyo3(signature = (pixels, *, projection = "perspective", field_of_view_deg = None, rows = "centre", white_luminance = 683.0,
     color_space = "lin_rec709", state = "auto", threshold = None, whole_pixels = false, all_light = false, size = 2.0, seed = 0,
@@ -142,7 +173,16 @@ pub fn glare<'py>(
     Ok((PyArray1::from_vec(py, picture.pixels).reshape(shape)?, Report { inner }))
 }
 
-/// The point spread function of the eye; see ``skyprobe.post.point_spread_function``.
+/// Share of the light of a point per solid angle, shape (angles, wavelengths). [sr-1]
+///
+/// Parameters
+/// ----------
+/// state
+///     "photopic", "mesopic" or "scotopic".
+/// angles_deg
+///     From the source, 0 to 180. [degrees]
+/// wavelengths_nm
+///     300 to 1000. Only the lenticular halo of the mesopic and the scotopic eye depends on them. [nm]
 #[pyfunction]
 pub fn point_spread_function<'py>(
     py: Python<'py>,

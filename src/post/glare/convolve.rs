@@ -66,13 +66,13 @@ impl<'a> Convolution<'a> {
         let mut unscattered = [0.0; 3];
         let mut spectrum = None;
         let first = if kernels == 3 { self.first_channel() } else { Vec::new() };
-        for channel in 0..3 {
+        for (channel, unscattered) in unscattered.iter_mut().enumerate() {
             if channel < kernels {
                 drop(spectrum.take());
                 spectrum = Some(self.spectrum(channel, &first, &parts)?);
             }
             if let Some(spectrum) = &spectrum {
-                unscattered[channel] = 1.0 - spectrum.scattered;
+                *unscattered = 1.0 - spectrum.scattered;
                 self.apply_channel(pixels, share, channel, spectrum, &parts)?;
             }
         }
@@ -89,9 +89,10 @@ impl<'a> Convolution<'a> {
     ) -> Result<()> {
         let (width, height) = self.size;
         let source = |y: usize, row: &mut [f64]| {
-            for x in 0..width {
-                let k = y * width + x;
-                row[x] = f64::from(share[k]) * f64::from(pixels[3 * k + channel]);
+            let range = y * width..(y + 1) * width;
+            let values = pixels[3 * range.start + channel..].iter().step_by(3);
+            for ((value, share), pixel) in row.iter_mut().zip(&share[range]).zip(values) {
+                *value = f64::from(*share) * f64::from(*pixel);
             }
             0.0
         };
@@ -120,11 +121,11 @@ impl<'a> Convolution<'a> {
                 spectrum[frequencies - 1].im = 0.0;
                 // Lengths are those of the plan.
                 let _ = plan.process_with_scratch(spectrum, &mut line, &mut scratch);
-                for x in 0..width {
-                    let k = row * width + x;
-                    let value = &mut pixels[3 * k + channel];
-                    let kept = f64::from(*value) * (1.0 - f64::from(share[k]));
-                    *value = (kept + (scale * line[x]).max(floor)) as f32;
+                let range = row * width..(row + 1) * width;
+                let values = pixels[3 * range.start + channel..].iter_mut().step_by(3);
+                for ((value, share), spread) in values.zip(&share[range]).zip(&line) {
+                    let kept = f64::from(*value) * (1.0 - f64::from(*share));
+                    *value = (kept + (scale * spread).max(floor)) as f32;
                 }
                 parts.finish_one()?;
             }
