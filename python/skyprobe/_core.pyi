@@ -41,6 +41,7 @@ _Operator: TypeAlias = Literal[
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
+    "Adaptation",
     "Atmosphere",
     "Body",
     "Cancelled",
@@ -53,6 +54,7 @@ __all__ = [
     "Irradiance",
     "Location",
     "LunarEclipse",
+    "Metering",
     "Moon",
     "NearestPlace",
     "Night",
@@ -64,7 +66,9 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "ToneReport",
     "__version__",
+    "auto_exposure",
     "civil_time",
     "elevation_m",
     "format_coordinates",
@@ -75,6 +79,7 @@ __all__ = [
     "point_spread_function",
     "run_command_line",
     "search_places",
+    "tone_map",
     "zone_of_place",
 ]
 

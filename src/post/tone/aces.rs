@@ -37,7 +37,7 @@ impl Aces {
 /// The curve, 0 for 0. The published one is slightly negative below 0.00325, which the clamp removes.
 fn fit(value: f32) -> f32 {
     let upper = value * (value + 0.024_578_6) - 0.000_090_537;
-    upper / (value * (0.983_729 * value + 0.432_951_0) + 0.238_081)
+    upper / (value * (0.983_729 * value + 0.432_951) + 0.238_081)
 }
 
 fn single(matrix: &Matrix) -> [[f32; 3]; 3] {

@@ -94,22 +94,23 @@ mod tests {
     fn a_noisy_dusk_gives_a_smooth_exposure() {
         // From noon to starlight in 20 s at 24 frames a second, every frame off by up to 10 %.
         let mut eye = Adaptation::time_lapse();
-        let (mut last, mut last_change, mut roughest, mut roughest_input, mut last_input) = (None, None, 0.0f64, 0.0f64, None);
+        let (mut last, mut last_change, mut last_input): (Option<f64>, Option<f64>, Option<f64>) = (None, None, None);
+        let (mut roughest, mut roughest_input) = (0.0f64, 0.0f64);
         for frame in 0..480 {
             let ramp = 8000f64.ln() + (3e-4f64 / 8000.0).ln() * frame as f64 / 480.0;
             let input = ramp + 0.1 * noise(frame);
             let found = eye.step(input.exp(), 1.0 / 24.0).unwrap().ln();
             if let Some(last) = last {
-                let change: f64 = found - last;
+                let change = found - last;
                 if let Some(last_change) = last_change {
-                    roughest = roughest.max((change - last_change as f64).abs());
+                    roughest = roughest.max((change - last_change).abs());
                 }
                 // Once the dusk is on its way it never turns back to brighter.
                 assert!(frame < 24 || change < 0.0, "{frame}: {change}");
                 last_change = Some(change);
             }
             if let Some(last_input) = last_input {
-                roughest_input = roughest_input.max((input - last_input as f64).abs());
+                roughest_input = roughest_input.max((input - last_input).abs());
             }
             (last, last_input) = (Some(found), Some(input));
         }

@@ -61,6 +61,7 @@ use super::picture::{Picture, View};
 use crate::error::{Error, Result, check_range};
 use crate::progress::Progress;
 use crate::spectrum::ColorSpace;
+use crate::spectrum::color_space::Matrix;
 use frame::{dot, exposed, without_excess, without_negative};
 use gaussian::Edges;
 use rayon::prelude::*;
@@ -295,13 +296,14 @@ impl<'a> Mapped<'a> {
         self.display.chromaticities().matrix_to_xyz()[1].map(|value| value as f32)
     }
 
-    fn from_xyz(&self) -> crate::spectrum::color_space::Matrix {
+    /// From CIE XYZ in cd m-2 to exposed light of the screen.
+    fn display_matrix(&self) -> Matrix {
         self.display.chromaticities().matrix_from_xyz().map(|row| row.map(|value| value * self.exposure))
     }
 
     /// A function of a pixel's index and exposed colour, which has no negative components.
     fn pixels(self, map: impl Fn(usize, [f32; 3]) -> [f32; 3] + Send + Sync + 'a) -> Row<'a> {
-        let (matrix, weights) = (self.frame.through(&self.from_xyz()), self.weights());
+        let (matrix, weights) = (self.frame.through(&self.display_matrix()), self.weights());
         Box::new(move |row, out| {
             let first = row * self.frame.width;
             for (column, (out, &pixel)) in out.as_chunks_mut::<3>().0.iter_mut().zip(self.frame.row(row)).enumerate() {
@@ -337,7 +339,7 @@ impl<'a> Mapped<'a> {
         let Some(rods) = Rods::new(sky, adaptation) else { return self.colours(move |rgb| curve.colour(rgb)) };
         let blurred = blurred_for_rods(&self.frame, adaptation, sky.acuity_loss);
         let to_xyz = self.frame.to_xyz().map(|row| row.map(|value| value as f32));
-        let (from_xyz, weights) = (self.from_xyz().map(|row| row.map(|value| value as f32)), self.weights());
+        let (from_xyz, weights) = (self.display_matrix().map(|row| row.map(|value| value as f32)), self.weights());
         Box::new(move |row, out| {
             let first = row * self.frame.width;
             for (column, (out, &pixel)) in out.as_chunks_mut::<3>().0.iter_mut().zip(self.frame.row(row)).enumerate() {
