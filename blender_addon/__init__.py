@@ -3,14 +3,15 @@
 
     settings ──> values ──> jobs (threads, the skyprobe library, no bpy) ──> scene_probe ──> world_nodes, lamps
         └──> live (each change, at once, coarsely)
-    operators, sequence (one probe, one a frame)
+    operators, sequence (one probe, one a frame) ──> beside (one work at a time, with progress)
 
 `settings` holds what the user sets, `panels` shows it, `configuration` and `presets` keep it in files, `handlers` follows Blender's own
-events, `compat` knows what differs between Blender versions. Conventions: +X east, +Y north (until the user turns north), +Z up.
+events, `failures` makes a line of what went wrong and `status_bar` shows it, `compat` knows what differs between Blender versions.
+Conventions: +X east, +Y north (until the user turns north), +Z up.
 """
 
-from . import finish, handlers, operators, panels, presets, sequence, settings, viewport_drawing
-from . import live
+from . import beside, finish, handlers, operators, panels, presets, sequence, settings, viewport_drawing
+from . import live, status_bar
 
 # Read where the add-on runs from its folder, without blender_manifest.toml, which replaces it for an installed extension.
 bl_info = {
@@ -24,7 +25,7 @@ bl_info = {
 }
 
 # In the order in which they need each other.
-MODULES = (settings, operators, sequence, presets, panels, viewport_drawing, handlers, finish)
+MODULES = (settings, beside, operators, sequence, presets, panels, viewport_drawing, handlers, finish)
 
 
 def register():
@@ -33,6 +34,8 @@ def register():
 
 
 def unregister():
+    beside.abandon()
     for module in reversed(MODULES):
         module.unregister()
     live.unregister()
+    status_bar.forget()

@@ -55,6 +55,16 @@ def set_sun_extraction(world, threshold, angle=None):
         world.sun_angle = angle
 
 
+def key_of(thing):
+    """Return what tells the datablock `thing` from all others of this session, whatever it is called. In old Blenders only the name does."""
+    return getattr(thing, "session_uid", thing.name)
+
+
+def scene_of(key):
+    """Return the scene of which `key_of` made `key`, or None if it is gone."""
+    return next((scene for scene in bpy.data.scenes if key_of(scene) == key), None)
+
+
 def layout_progress(layout, factor, text):
     """Show that `factor` (0 to 1) of a work is done. Before 4.0 there is no bar, only the text."""
     if bpy.app.version < (4, 0, 0):
@@ -69,12 +79,12 @@ def is_rendering():
 
 
 def user_folder(name):
-    """Return the path of a folder of the user's for the add-on, made if it is missing."""
+    """Return the path of a folder of the user's for the add-on, which need not exist."""
     try:
-        return bpy.utils.extension_path_user(__package__, path=name, create=True)
+        return bpy.utils.extension_path_user(__package__, path=name)
     except (AttributeError, ValueError):
         # Not an extension: run from a folder of add-ons, or by a Blender that has none.
-        return bpy.utils.user_resource("SCRIPTS", path=f"presets/skyprobe/{name}", create=True)
+        return bpy.utils.user_resource("SCRIPTS", path=f"presets/skyprobe/{name}")
 
 
 def curves(thing):
@@ -85,6 +95,8 @@ def curves(thing):
         return []
     if hasattr(action, "fcurves"):
         return list(action.fcurves)
+    if data.action_slot is None:
+        return []
     # From 5.0 on curves are in bags by slot.
     bags = (strip.channelbag(data.action_slot) for layer in action.layers for strip in layer.strips)
     return [curve for bag in bags if bag is not None for curve in bag.fcurves]
@@ -97,6 +109,17 @@ def is_animated(thing, path):
     return any(curve.data_path.startswith(path) for curve in (*curves(thing), *drivers))
 
 
+def check_animatable(thing, data_path):
+    """Raise ValueError if the property `data_path` of `thing` can be given no keyframes."""
+    data = thing.animation_data
+    if data and data.action is not None and data.action.library is not None:
+        raise ValueError(f"action = {data.action.name}: must not be linked from another file; make it local, or remove it")
+    if any(curve.data_path == data_path and curve.lock for curve in curves(thing)):
+        raise ValueError(f"curve = {data_path}: must not be locked; unlock it in the Graph Editor")
+    if data and any(driver.data_path == data_path for driver in data.drivers):
+        raise ValueError(f"driver = {data_path}: must not be there, as it overrules keyframes; delete it")
+
+
 def make_linear(*things):
     """Let every curve of ours of `things` go straight from key to key."""
     for thing in things:
@@ -106,6 +129,14 @@ def make_linear(*things):
             for point in curve.keyframe_points:
                 point.interpolation = "LINEAR"
             curve.update()
+
+
+def shift_curve(curve, by):
+    """Add `by` to the value of every key of `curve`."""
+    for point in curve.keyframe_points:
+        for place in (point.co, point.handle_left, point.handle_right):
+            place.y += by
+    curve.update()
 
 
 def remove_curve(thing, data_path):
@@ -126,8 +157,12 @@ def remove_curve(thing, data_path):
 
 
 def set_linear_rec709(image):
-    """Let the pixels of `image` be linear Rec.709, which Blender before 4.0 calls Linear."""
-    image.colorspace_settings.name = "Linear" if bpy.app.version < (4, 0, 0) else "Linear Rec.709"
+    """Let the pixels of `image` be linear Rec.709, which Blender before 4.0 calls Linear; ValueError if OpenColorIO has no such space."""
+    name = "Linear" if bpy.app.version < (4, 0, 0) else "Linear Rec.709"
+    try:
+        image.colorspace_settings.name = name
+    except TypeError:
+        raise ValueError(f"color space = {name}: must be one of the OpenColorIO configuration; use one that has it, such as Blender's own") from None
 
 
 def builtin_shader(name):

@@ -80,8 +80,7 @@ def _check(changes, settings):
             if value not in allowed:
                 raise ValueError(f"{name} = {value!r}: must be one of {', '.join(allowed)}")
         elif kind.type in {"INT", "FLOAT"}:
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-                raise ValueError(f"{name} = {value!r}: must be a number")
+            _number(name, value)
             if kind.type == "INT" and value != int(value):
                 raise ValueError(f"{name} = {value!r}: must be a whole number")
             # Blender keeps single precision.
@@ -92,8 +91,8 @@ def _check(changes, settings):
                 raise ValueError(f"{name} = {shown[0]:g}: must be from {shown[1]:g} to {shown[2]:g}{unit}")
             if kind.type == "INT":
                 changes[name] = int(value)
-        elif kind.type == "STRING" and not isinstance(value, str):
-            raise ValueError(f"{name} = {value!r}: must be a text")
+        elif kind.type == "STRING" and not (isinstance(value, str) and value.isprintable()):
+            raise ValueError(f"{name} = {value!r}: must be a text of letters that can be shown")
 
 
 def _ignore(key, value, changes):
@@ -107,7 +106,8 @@ def _table(key, value):
 
 
 def _number(key, value):
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
+    """Return `value` if it is a number that single precision can hold."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= 3e38:
         raise ValueError(f"{key} = {value!r}: must be a number")
     return value
 
@@ -211,9 +211,13 @@ def _read_probe(key, value, changes):
     for name, content in _table(key, value).items():
         if name == "width":
             offered = [item for item, _, _ in choices.WIDTHS]
-            changes["width_choice"] = str(content) if str(content) in offered else "OTHER"
             changes["width"] = _number(f"{key}.{name}", content)
+            changes["width_choice"] = str(content) if str(content) in offered else "OTHER"
+            if content % 2:
+                raise ValueError(f"{key}.{name} = {content}: must be even")
         elif name == "sun_disc":
+            if not isinstance(content, bool):
+                raise ValueError(f"{key}.{name} = {content!r}: must be true or false")
             changes["sun_mode"] = "MAP" if content else "LAMP"
         elif name not in IGNORED_PROBE:
             raise ValueError(f"{key}.{name} = {content!r}: must not be there; the panel has no such setting")

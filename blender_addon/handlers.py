@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from . import compat, jobs, live, scene_probe, sequence
+from . import compat, failures, live, scene_probe, sequence
 
 _rendering = False
 
@@ -27,9 +27,10 @@ def _frame_changed(scene, depsgraph=None):
         return
     try:
         live.update_now(scene, final=True)
-    except jobs.USER_ERRORS as error:
+    except Exception as error:
         # A render goes on with the light that it has; a farm's log tells why.
-        print(f"Skyprobe: frame {scene.frame_current}: {error}")
+        print(f"Skyprobe: frame {scene.frame_current}: {failures.line(error)}", flush=True)
+        live.complain(scene, failures.line(error))
 
 
 @persistent
@@ -47,9 +48,21 @@ def _render_ended(scene, depsgraph=None):
 @persistent
 def _undone(scene, depsgraph=None):
     """Undo brings back settings and nodes, but not the pixels of the preview."""
+    scene_probe.forget()
     for each in bpy.data.scenes:
-        if scene_probe.is_lit(each) and each.skyprobe.shown == "PREVIEW":
-            live.request(each)
+        if each.library is not None or not scene_probe.is_lit(each) or each.skyprobe.shown != "PREVIEW":
+            continue
+        live.request(each)
+        if bpy.app.background:
+            _guarded(each, lambda scene: live.update_now(scene, final=False))
+
+
+def _guarded(scene, work):
+    """Let `work` do something to `scene`; complain if it cannot."""
+    try:
+        work(scene)
+    except Exception as error:
+        live.complain(scene, failures.line(error))
 
 
 @persistent
@@ -62,7 +75,7 @@ def _loading(*_):
 def _saving(*_):
     """A preview is in memory only: it goes into the file, which shows its sky without the add-on."""
     for scene in bpy.data.scenes:
-        scene_probe.pack_preview(scene)
+        _guarded(scene, scene_probe.pack_preview)
 
 
 _HANDLERS = (

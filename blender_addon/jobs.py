@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is computed for Blender, on whatever thread asks. Nothing here touches bpy, which only the main thread may use."""
 
+import contextlib
 import json
 import math
+import os
 import threading
 from dataclasses import asdict, dataclass
 
@@ -72,9 +74,26 @@ def result_content(result):
 
 
 def result_from(content, request):
-    """Return the SkyResult of which `result_content` made `content`."""
-    sun, moon = ({**lamp, "irradiance": tuple(lamp["irradiance"])} if lamp else None for lamp in (content["sun"], content["moon"]))
-    return SkyResult(**{**content, "request": request, "sun": Lamp(**sun), "moon": Lamp(**moon) if moon else None})
+    """Return the SkyResult of which `result_content` made `content`; ValueError, TypeError or KeyError for anything else."""
+    return SkyResult(
+        request=request,
+        sun=_lamp_from(content["sun"]),
+        moon=None if content["moon"] is None else _lamp_from(content["moon"]),
+        moon_fraction=_finite(content["moon_fraction"]),
+        horizontal_lx=_finite(content["horizontal_lx"]),
+    )
+
+
+def _lamp_from(content):
+    red, green, blue = content["irradiance"]
+    angles = (_finite(content[name]) for name in ("altitude_deg", "azimuth_deg", "diameter_deg"))
+    return Lamp(*angles, irradiance=(_finite(red), _finite(green), _finite(blue)))
+
+
+def _finite(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError(f"{value!r} is no number")
+    return float(value)
 
 
 # The air of the last probes. A solved atmosphere serves every place and time, so only a change of air costs a solve.
@@ -98,6 +117,17 @@ def forget_atmospheres():
     """Free the memory of the last atmospheres."""
     with _air_lock:
         _airs.clear()
+
+
+@contextlib.contextmanager
+def _without_panics():
+    """Let a panic of the library, which is no Exception, be one."""
+    try:
+        yield
+    except BaseException as error:
+        if type(error).__module__ != "pyo3_runtime":
+            raise
+        raise RuntimeError(f"panic: {error}") from error
 
 
 def sky_of(request):
@@ -146,6 +176,7 @@ def render(sky, request, progress=None):
     )
 
 
+@_without_panics()
 def preview(request, progress=None):
     """Return the pixels of `request` as Blender keeps them (flat RGBA, float32, rows from the bottom) and its SkyResult."""
     probe, result = render(sky_of(request), request, progress)
@@ -154,6 +185,7 @@ def preview(request, progress=None):
     return pixels.ravel(), result
 
 
+@_without_panics()
 def write(request, path, progress=None):
     """Write the probe of `request` to `path`, whole or not at all; return its SkyResult."""
     probe, result = render(sky_of(request), request, progress)
@@ -172,6 +204,7 @@ class Day:
     moon_set: object
 
 
+@_without_panics()
 def day(request):
     """Return the Day of `request`."""
     sky = sky_of(request)
@@ -188,27 +221,50 @@ def _scaled(rgb, factor):
 
 
 class ProbeJob(threading.Thread):
-    """Writes the probe of `request` to `path` on its thread. After it ended exactly one of `result` and `error` is set."""
+    """Writes the probe of `request` to `path` on its thread. After it ended exactly one of `result` and `error` is set.
 
-    def __init__(self, request, path):
+    A `temporary` file goes when nobody waits for it any more.
+    """
+
+    def __init__(self, request, path, temporary=False):
         super().__init__(name="skyprobe", daemon=True)
         self.request = request
         self.path = path
+        self.temporary = temporary
         self.result = None
         self.error = None
         self.stage = "start"
         self.fraction = 0.0
         self._cancel = threading.Event()
+        self._abandoned = threading.Event()
 
     def cancel(self):
         """Ask for an early end; the thread ends soon after, with skyprobe.Cancelled as its error."""
         self._cancel.set()
 
+    def abandon(self, patience_s):
+        """Ask for an early end, for which nobody waits longer than `patience_s` [s], and leave no temporary file."""
+        self._abandoned.set()
+        self.cancel()
+        if self.is_alive():
+            self.join(patience_s)
+        if not self.is_alive():
+            self.discard()
+
+    def discard(self):
+        """Delete the file if it is temporary."""
+        if self.temporary:
+            # A system may hold on to a file that was just read; it is in a folder that goes with Blender.
+            with contextlib.suppress(OSError):
+                os.remove(self.path)
+
     def run(self):
         try:
             self.result = write(self.request, self.path, self._report)
-        except BaseException as error:  # handed to the main thread, which reports or raises it
+        except BaseException as error:  # handed to the main thread, which reports it
             self.error = error
+        if self._abandoned.is_set():
+            self.discard()
 
     def _report(self, stage, fraction):
         self.stage = stage

@@ -9,6 +9,8 @@ import math
 
 import bpy
 
+from . import compat
+
 SUN, MOON = "Skyprobe Sun", "Skyprobe Moon"
 
 
@@ -41,6 +43,9 @@ def link(scene, lamp, name):
 
 def shine(lamp, light_of, north):
     """Set the object `lamp` to the jobs.Lamp `light_of`."""
+    if lamp.data.type != "SUN":
+        lamp.data.type = "SUN"
+    # Another type of light is another Python object.
     light = lamp.data
     light.energy, light.color = strength_and_color(light_of.irradiance)
     light.angle = math.radians(light_of.diameter_deg)
@@ -50,8 +55,22 @@ def shine(lamp, light_of, north):
 
 
 def turn(lamp, azimuth_deg, north):
-    """Turn `lamp` after a change of `north` alone."""
-    lamp.rotation_euler.z = -(math.radians(azimuth_deg) + north)
+    """Turn `lamp`, whose first key if it is animated is for this azimuth, after a change of `north` alone."""
+    angle = -(math.radians(azimuth_deg) + north)
+    for curve in compat.curves(lamp):
+        if (curve.data_path, curve.array_index) == ("rotation_euler", 2) and curve.keyframe_points:
+            compat.shift_curve(curve, angle - nearest_turn(curve.keyframe_points[0].co.y, angle))
+    lamp.rotation_euler.z = angle
+
+
+def copy(lamp):
+    """Return a copy of `lamp`, of its light and of their animation."""
+    new = lamp.copy()
+    new.data = lamp.data.copy()
+    for thing in (new, new.data):
+        if thing.animation_data and thing.animation_data.action:
+            thing.animation_data.action = thing.animation_data.action.copy()
+    return new
 
 
 def nearest_turn(angle, before):

@@ -13,12 +13,14 @@ from dataclasses import dataclass, replace
 import bpy
 import skyprobe
 
-from . import compat, exposure, jobs, scene_probe, values, viewport_drawing
+from . import compat, exposure, failures, jobs, scene_probe, status_bar, values, viewport_drawing
 
 # How often the main thread looks for results while there is work [s].
 POLL_S = 0.004
 # While Blender renders nothing may change under it [s].
 WAIT_S = 0.25
+# How long the main thread waits for the end of the worker, which otherwise ends alone [s].
+PATIENCE_S = 0.25
 # Width of a probe that only numbers are wanted of [pixels].
 NUMBERS_WIDTH = 64
 
@@ -32,8 +34,10 @@ class Readout:
     message: str = ""
 
 
-# By the scene's name.
+# By compat.key_of the scene.
 readouts = {}
+# Scenes that a panel shows for the first time.
+_first_looks = set()
 _held = 0
 
 
@@ -49,14 +53,14 @@ class _Worker(threading.Thread):
         self._ended = False
         self._days = {}
 
-    def ask(self, scene_name, request, picture):
+    def ask(self, scene_key, request, picture):
         """Want the preview of a scene, or only its numbers; a wish of the same scene that was not begun is forgotten."""
         with self._lock:
-            self._wanted[scene_name] = (request, picture)
+            self._wanted[scene_key] = (request, picture)
             self._lock.notify()
 
     def take(self):
-        """Return and forget the outcomes so far: (scene's name, pixels or None, SkyResult or Day or error, picture was wanted)."""
+        """Return and forget the outcomes so far: (scene's key, pixels or None, SkyResult or Day or error, picture was wanted)."""
         with self._lock:
             done, self._done = self._done, []
             return done
@@ -76,12 +80,12 @@ class _Worker(threading.Thread):
             self._now = None
 
     def end(self):
-        """Stop soon and wait for that."""
+        """Stop soon, and wait a little for that."""
         with self._lock:
             self._ended = True
             self._wanted.clear()
             self._lock.notify()
-        self.join()
+        self.join(PATIENCE_S)
 
     def run(self):
         while True:
@@ -90,9 +94,9 @@ class _Worker(threading.Thread):
                     self._lock.wait()
                 if self._ended:
                     return
-                scene_name = next(iter(self._wanted))
-                request, picture = self._wanted.pop(scene_name)
-                self._now = token = (scene_name, request)
+                scene_key = next(iter(self._wanted))
+                request, picture = self._wanted.pop(scene_key)
+                self._now = token = (scene_key, request)
             try:
                 pixels, outcome = jobs.preview(request, self._progress)
             except skyprobe.Cancelled:
@@ -100,7 +104,7 @@ class _Worker(threading.Thread):
                 continue
             except BaseException as error:  # the main thread tells it
                 pixels, outcome = None, error
-            self._put(token, (scene_name, pixels if picture else None, outcome, picture), more=True)
+            self._put(token, (scene_key, pixels if picture else None, outcome, picture), more=True)
             self._make_day(token)
             self._put(token)
 
@@ -109,22 +113,24 @@ class _Worker(threading.Thread):
         with self._lock:
             if self._ended or self._now is None:
                 return False
-            scene_name, request = self._now
-            newer = self._wanted.get(scene_name)
+            scene_key, request = self._now
+            newer = self._wanted.get(scene_key)
             return newer is None or newer[0].air_key == request.air_key
 
     def _make_day(self, token):
-        scene_name, request = token
+        scene_key, request = token
         key = (tuple(request.place.items()), request.time[:10], request.time[19:])
         with self._lock:
-            if self._wanted or self._ended or self._days.get(scene_name) == key:
+            if self._wanted or self._ended or self._days.get(scene_key) == key:
                 return
-            self._days[scene_name] = key
+            self._days[scene_key] = key
         try:
             day = jobs.day(request)
         except jobs.USER_ERRORS:
             return
-        self._put(token, (scene_name, None, day, False), more=True)
+        except Exception as error:  # the main thread tells it
+            day = error
+        self._put(token, (scene_key, None, day, False), more=True)
 
     def _put(self, token, outcome=None, more=False):
         with self._lock:
@@ -158,7 +164,7 @@ def held(scene):
 
 
 def request(scene):
-    """Ask for the preview of `scene` as its settings are now, or only for its numbers if it shows none."""
+    """Ask for the preview of `scene` as its settings are now, or only for its numbers if it shows none; complain if that cannot be."""
     # Settings of a linked scene cannot change, and their world is not ours.
     if _held or scene.library is not None:
         return
@@ -168,14 +174,15 @@ def request(scene):
             picture = False
         else:
             picture = _wants_picture(scene)
-    except jobs.USER_ERRORS as error:
-        complain(scene, str(error))
+    except Exception as error:
+        complain(scene, failures.line(error))
         return
     if bpy.app.background:
+        complain(scene, "")
         return
     if not picture:
         wanted = replace(wanted, width=NUMBERS_WIDTH)
-    _ask(scene.name, wanted, picture)
+    _ask(compat.key_of(scene), wanted, picture)
 
 
 def _wants_picture(scene):
@@ -183,83 +190,91 @@ def _wants_picture(scene):
     return settings.live and scene_probe.is_lit(scene) and settings.shown != "SEQUENCE"
 
 
-def _ask(scene_name, wanted, picture):
+def _ask(scene_key, wanted, picture):
     global _worker
     if _worker is None or not _worker.is_alive():
         _worker = _Worker()
         _worker.start()
-    _worker.ask(scene_name, wanted, picture)
+    _worker.ask(scene_key, wanted, picture)
+    _look_out()
+
+
+def _look_out():
     if not bpy.app.timers.is_registered(_poll):
         bpy.app.timers.register(_poll, first_interval=POLL_S)
 
 
 def _poll():
     """Take what the worker has made to the scenes. Returns the time until the next look [s], None when all is done."""
-    if _worker is None:
-        return None
     if compat.is_rendering():
         return WAIT_S
-    for scene_name, pixels, outcome, picture in _worker.take():
-        scene = bpy.data.scenes.get(scene_name)
+    while _first_looks:
+        scene = compat.scene_of(_first_looks.pop())
+        if scene is not None:
+            request(scene)
+    if _worker is None:
+        return None
+    for scene_key, pixels, outcome, picture in _worker.take():
+        scene = compat.scene_of(scene_key)
         if scene is None:
-            readouts.pop(scene_name, None)
-        elif isinstance(outcome, jobs.Day):
-            readout(scene).day = outcome
-        elif isinstance(outcome, BaseException):
-            _fail(scene, outcome)
-        else:
+            readouts.pop(scene_key, None)
+            continue
+        try:
             _arrive(scene, pixels, outcome, picture)
+        except Exception as error:
+            complain(scene, failures.line(error))
     _redraw()
     return None if _worker.is_idle() else POLL_S
 
 
-def _arrive(scene, pixels, result, picture):
-    readout(scene).result = result
+def _arrive(scene, pixels, outcome, picture):
+    if isinstance(outcome, BaseException):
+        raise outcome if isinstance(outcome, Exception) else RuntimeError(repr(outcome))
+    if isinstance(outcome, jobs.Day):
+        readout(scene).day = outcome
+        return
+    readout(scene).result = outcome
     complain(scene, "")
     # The scene may have got another world, or a rendered probe, in the meantime.
     if picture and _wants_picture(scene):
-        scene_probe.show_preview(scene, pixels, result)
+        scene_probe.show_preview(scene, pixels, outcome)
     if scene_probe.is_lit(scene):
-        exposure.follow(scene, result.horizontal_lx)
+        exposure.follow(scene, outcome.horizontal_lx)
 
 
-def _fail(scene, error):
-    if isinstance(error, jobs.USER_ERRORS):
-        complain(scene, str(error))
-    else:
-        complain(scene, f"the preview failed: {error!r}")
+def update_now(scene, final, anew=False):
+    """Bring the light of `scene` up to date before this returns, as the live preview or as the probe to render; `anew` whatever it shows now.
 
-
-def update_now(scene, final):
-    """Bring the light of `scene` up to date before this returns, as the live preview or as the probe to render; raise jobs.USER_ERRORS."""
+    Raises what values and jobs raise, and the scene is as it was.
+    """
     wanted = values.final_request(scene) if final else values.preview_request(scene)
-    if scene_probe.show_again(scene, values.final_request(scene)) or scene_probe.shown_key(scene) == wanted.key:
+    if not anew and (scene_probe.show_again(scene, values.final_request(scene)) or scene_probe.shown_key(scene) == wanted.key):
         return
     pixels, result = jobs.preview(wanted)
     readout(scene).result = result
     scene_probe.show_preview(scene, pixels, result)
     exposure.follow(scene, result.horizontal_lx)
+    complain(scene, "")
 
 
 def readout(scene):
     """Return the Readout of `scene`, an empty one at first."""
-    return readouts.setdefault(scene.name, Readout())
+    return readouts.setdefault(compat.key_of(scene), Readout())
 
 
 def ensure_readout(scene):
-    """Have numbers made for a scene that the panel shows for the first time."""
-    if scene.name not in readouts and not bpy.app.background:
+    """Have numbers made for a scene that the panel shows for the first time. While a panel is drawn no data may change, so a bit later."""
+    key = compat.key_of(scene)
+    if key not in readouts and not bpy.app.background:
         readout(scene)
-        request(scene)
+        _first_looks.add(key)
+        _look_out()
 
 
 def complain(scene, message):
     """Tell in the panel and in the status bar what is wrong with `scene`, or nothing any more."""
-    was, readout(scene).message = readout(scene).message, message
-    if bpy.app.background or was == message:
-        return
-    for window in bpy.context.window_manager.windows:
-        window.workspace.status_text_set(f"Skyprobe: {message}" if message else None)
+    readout(scene).message = message
+    status_bar.show_message(scene, message)
 
 
 def _redraw():
@@ -272,6 +287,8 @@ def _redraw():
 def forget():
     """Forget all scenes, as when another file is opened."""
     readouts.clear()
+    _first_looks.clear()
+    status_bar.forget()
     if _worker is not None:
         _worker.clear()
 
@@ -284,4 +301,5 @@ def unregister():
         _worker.end()
         _worker = None
     readouts.clear()
+    _first_looks.clear()
     jobs.forget_atmospheres()

@@ -4,13 +4,10 @@
 import os
 
 import bpy
-import skyprobe
 
-from . import exposure, jobs, live, scene_probe, values
+from . import beside, compat, exposure, jobs, live, scene_probe, values
+from .failures import Telling
 from .settings import MADE
-
-# The job that runs now, for the panel and for unregister.
-running_job = None
 
 
 def editable(cls, context):
@@ -24,7 +21,15 @@ def editable(cls, context):
     return True
 
 
-class SKYPROBE_OT_add(bpy.types.Operator):
+def free(cls, context):
+    """The same, and whether nothing is being rendered for it."""
+    if beside.refusal():
+        cls.poll_message_set(beside.refusal())
+        return False
+    return editable(cls, context)
+
+
+class SKYPROBE_OT_add(Telling, bpy.types.Operator):
     """Show the sky of the place and time in this scene's world. The scene's old world is kept and comes back when the sky is removed"""
 
     bl_idname = "skyprobe.add"
@@ -40,17 +45,64 @@ class SKYPROBE_OT_add(bpy.types.Operator):
             return False
         return True
 
-    def execute(self, context):
-        try:
-            live.update_now(context.scene, final=False)
-        except jobs.USER_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+    def run(self, context):
+        live.update_now(context.scene, final=False)
         live.request(context.scene)
         return {"FINISHED"}
 
 
-class SKYPROBE_OT_render(bpy.types.Operator):
+class _Probe:
+    """The probe of a scene on its way (a work of beside)."""
+
+    def __init__(self, scene):
+        settings = scene.skyprobe
+        self.job = None
+        self._scene_name, self._scene_key = scene.name, compat.key_of(scene)
+        self._pack = settings.storage == "PACKED"
+        path = values.probe_path(settings)
+        check_folder(os.path.dirname(path))
+        self._jobs = [jobs.ProbeJob(values.final_request(scene), path, temporary=self._pack)]
+        self._done = None
+
+    def next(self):
+        self.job = self._jobs.pop() if self._jobs else None
+        return self.job is not None
+
+    def take(self):
+        self._done, self.job = self.job, None
+        if self._done.error is not None:
+            raise self._done.error
+
+    def when_cancelled(self):
+        return "cancelled; the scene is as it was"
+
+    def progress(self):
+        job = self.job or self._done
+        return job.fraction, f"{job.stage} {job.fraction:.0%}"
+
+    def leave(self):
+        pass
+
+    def finish(self, report):
+        """Light the scene, or say why not and leave it as it was."""
+        job = self._done
+        try:
+            scene = compat.scene_of(self._scene_key)
+            if scene is None:
+                kept = "nothing of it is kept" if self._pack else f"it is kept as {job.path}"
+                raise ValueError(f"scene = {self._scene_name}: must be there until its probe is finished; {kept}")
+            scene_probe.show_probe(scene, job.result, job.path, self._pack)
+        finally:
+            job.discard()
+        live.readout(scene).result = job.result
+        exposure.follow(scene, job.result.horizontal_lx)
+        if is_current(scene):
+            report({"INFO"}, f"Skyprobe: probe of {job.request.width} x {job.request.width // 2} pixels")
+        else:
+            report({"WARNING"}, "Skyprobe: the settings have changed since this probe was begun; render it again")
+
+
+class SKYPROBE_OT_render(beside.Beside, bpy.types.Operator):
     """Compute the sky in full quality and light the scene by it. Goes on beside your work; Esc cancels"""
 
     bl_idname = "skyprobe.render"
@@ -59,128 +111,13 @@ class SKYPROBE_OT_render(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if running_job is not None:
-            cls.poll_message_set("A probe is being rendered")
-            return False
-        return editable(cls, context)
+        return free(cls, context)
 
-    def execute(self, context):
-        return self._start(context) or self._run_here(context)
-
-    def invoke(self, context, event):
-        # Timers never fire in background mode.
-        if bpy.app.background:
-            return self.execute(context)
-        return self._start(context) or self._run_beside(context)
-
-    def modal(self, context, event):
-        if event.type == "ESC":
-            self._job.cancel()
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        if self._job.is_alive():
-            self._show_progress(context)
-            return {"PASS_THROUGH"}
-        self._leave(context)
-        return self._finish()
-
-    def cancel(self, context):
-        """Blender ends the operator itself, as when another file is opened."""
-        self._job.cancel()
-        self._job.join()
-        self._leave(context)
-
-    def _start(self, context):
-        """Make the job; None, or what the operator must return because the settings make no sense."""
-        scene = context.scene
-        self._scene_name = scene.name
-        self._pack = scene.skyprobe.storage == "PACKED"
-        try:
-            path = values.probe_path(scene.skyprobe)
-            check_folder(os.path.dirname(path))
-            self._job = jobs.ProbeJob(values.final_request(scene), path)
-        except jobs.USER_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return None
-
-    def _run_here(self, context):
-        self._job.run()
-        return self._finish()
-
-    def _run_beside(self, context):
-        global running_job
-        running_job = self._job
-        self._job.start()
-        window_manager = context.window_manager
-        window_manager.progress_begin(0.0, 1.0)
-        self._timer = window_manager.event_timer_add(0.1, window=context.window)
-        window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def _show_progress(self, context):
-        job = self._job
-        context.window_manager.progress_update(job.fraction)
-        if context.workspace:
-            context.workspace.status_text_set(f"Skyprobe: {job.stage} {job.fraction:.0%} (Esc cancels)")
-        redraw(context)
-
-    def _leave(self, context):
-        global running_job
-        running_job = None
-        window_manager = context.window_manager
-        window_manager.event_timer_remove(self._timer)
-        window_manager.progress_end()
-        if context.workspace:
-            context.workspace.status_text_set(None)
-        redraw(context)
-
-    def _finish(self):
-        """Use what the ended job has: light the scene, or say why not and leave it as it was."""
-        job = self._job
-        if isinstance(job.error, skyprobe.Cancelled):
-            self.report({"INFO"}, "Skyprobe: cancelled")
-            return {"CANCELLED"}
-        if isinstance(job.error, jobs.USER_ERRORS):
-            self.report({"ERROR"}, str(job.error))
-            return {"CANCELLED"}
-        if job.error is not None:
-            raise job.error
-        scene = bpy.data.scenes.get(self._scene_name)
-        if scene is None:
-            self.report({"WARNING"}, f"Skyprobe: the scene {self._scene_name} is gone; the probe is {job.path}")
-            return {"CANCELLED"}
-        try:
-            scene_probe.show_probe(scene, job.result, job.path, self._pack)
-        except jobs.USER_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        if self._pack:
-            os.remove(job.path)
-        live.readout(scene).result = job.result
-        exposure.follow(scene, job.result.horizontal_lx)
-        if not is_current(scene):
-            self.report({"WARNING"}, "Skyprobe: the settings have changed since this probe was begun; render it again")
-        else:
-            self.report({"INFO"}, f"Skyprobe: probe of {job.request.width} x {job.request.width // 2} pixels")
-        return {"FINISHED"}
+    def make(self, scene):
+        return _Probe(scene)
 
 
-class SKYPROBE_OT_cancel(bpy.types.Operator):
-    """Stop what is being computed and leave the scene as it is"""
-
-    bl_idname = "skyprobe.cancel"
-    bl_label = "Cancel"
-    bl_options = {"INTERNAL"}
-
-    def execute(self, context):
-        if running_job is not None:
-            running_job.cancel()
-        return {"FINISHED"}
-
-
-class SKYPROBE_OT_remove(bpy.types.Operator):
+class SKYPROBE_OT_remove(Telling, bpy.types.Operator):
     """Take the sky and its lamps away and give the scene its old world back"""
 
     bl_idname = "skyprobe.remove"
@@ -189,17 +126,14 @@ class SKYPROBE_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if running_job is not None:
-            cls.poll_message_set("A probe is being rendered: cancel that first")
-            return False
-        return editable(cls, context) and scene_probe.has_anything(context.scene)
+        return free(cls, context) and scene_probe.has_anything(context.scene)
 
-    def execute(self, context):
+    def run(self, context):
         scene_probe.remove(context.scene)
         return {"FINISHED"}
 
 
-class SKYPROBE_OT_reset(bpy.types.Operator):
+class SKYPROBE_OT_reset(Telling, bpy.types.Operator):
     """Give every setting of the sky its default; what lights the scene stays until it is rendered again"""
 
     bl_idname = "skyprobe.reset"
@@ -210,7 +144,7 @@ class SKYPROBE_OT_reset(bpy.types.Operator):
     def poll(cls, context):
         return editable(cls, context)
 
-    def execute(self, context):
+    def run(self, context):
         settings = context.scene.skyprobe
         with live.held(context.scene):
             for name in settings.bl_rna.properties.keys():
@@ -219,7 +153,7 @@ class SKYPROBE_OT_reset(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class SKYPROBE_OT_now(bpy.types.Operator):
+class SKYPROBE_OT_now(Telling, bpy.types.Operator):
     """Set date and time to this moment, as a clock at the place shows it"""
 
     bl_idname = "skyprobe.now"
@@ -230,19 +164,15 @@ class SKYPROBE_OT_now(bpy.types.Operator):
     def poll(cls, context):
         return editable(cls, context)
 
-    def execute(self, context):
+    def run(self, context):
         settings = context.scene.skyprobe
-        try:
-            now = values.now(settings)
-        except jobs.USER_ERRORS as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        now = values.now(settings)
         with live.held(context.scene):
             values.set_clock(settings, now)
         return {"FINISHED"}
 
 
-class SKYPROBE_OT_expose(bpy.types.Operator):
+class SKYPROBE_OT_expose(Telling, bpy.types.Operator):
     """Set the exposure of the scene (Color Management) so that a grey card on the open ground is rendered grey"""
 
     bl_idname = "skyprobe.expose"
@@ -253,15 +183,12 @@ class SKYPROBE_OT_expose(bpy.types.Operator):
     def poll(cls, context):
         return editable(cls, context)
 
-    def execute(self, context):
+    def run(self, context):
         scene = context.scene
         result = live.readout(scene).result
-        if result is None:
-            try:
-                result = jobs.preview(values.preview_request(scene))[1]
-            except jobs.USER_ERRORS as error:
-                self.report({"ERROR"}, str(error))
-                return {"CANCELLED"}
+        # In background mode nothing follows the settings.
+        if result is None or bpy.app.background:
+            result = jobs.preview(values.preview_request(scene))[1]
         exposure.expose(scene, result.horizontal_lx)
         self.report({"INFO"}, f"Skyprobe: {result.horizontal_lx:.3g} lx, exposure {scene.view_settings.exposure:+.1f} stops")
         return {"FINISHED"}
@@ -280,20 +207,12 @@ def check_folder(folder):
     if not os.path.isdir(folder):
         raise OSError(f"folder = {folder}: must be a folder that exists; choose another, or make it")
     if not os.access(folder, os.W_OK):
-        raise OSError(f"folder = {folder}: must be one that you may write to")
-
-
-def redraw(context):
-    """Draw the panels again."""
-    for area in context.screen.areas if context.screen else ():
-        if area.type in {"PROPERTIES", "VIEW_3D"}:
-            area.tag_redraw()
+        raise OSError(f"folder = {folder}: must be one that you may write to; choose another")
 
 
 CLASSES = (
     SKYPROBE_OT_add,
     SKYPROBE_OT_render,
-    SKYPROBE_OT_cancel,
     SKYPROBE_OT_remove,
     SKYPROBE_OT_reset,
     SKYPROBE_OT_now,
@@ -307,8 +226,5 @@ def register():
 
 
 def unregister():
-    if running_job is not None:
-        running_job.cancel()
-        running_job.join()
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import choices, compat, live, operators, presets, readout, scene_probe, sequence, values
+from . import beside, choices, compat, live, operators, presets, readout, scene_probe, sequence, values
 
 
 def _draw_top(layout, scene, settings):
@@ -21,14 +21,11 @@ def _draw_top(layout, scene, settings):
 
 
 def _draw_run(layout, scene, settings):
-    job, frames = operators.running_job, sequence.progress()
-    if job is not None:
+    work = beside.current
+    if work is not None:
         row = layout.row(align=True)
-        compat.layout_progress(row, job.fraction, f"{job.stage} {job.fraction:.0%} (Esc cancels)")
-        row.operator(operators.SKYPROBE_OT_cancel.bl_idname, text="", icon="X")
-        return
-    if frames is not None:
-        compat.layout_progress(layout, frames[0] / frames[1], f"frame {frames[0] + 1} of {frames[1]} (Esc cancels)")
+        compat.layout_progress(row, *work.progress())
+        row.operator(beside.SKYPROBE_OT_cancel.bl_idname, text="", icon="X")
         return
     if not scene_probe.is_lit(scene):
         row = layout.row(align=True)
@@ -72,7 +69,7 @@ def _draw_time(layout, scene, settings):
     column.prop(settings, "month")
     column.prop(settings, "year")
     layout.prop(settings, "day_of_year", slider=True)
-    layout.prop(settings, "hour", slider=True, text="Time {:02d}:{:02d}:{:02d}".format(*values.clock(settings)))
+    layout.prop(settings, "hour", slider=True, text=f"Time {readout.time(settings)}")
     layout.prop(settings, "time_offset_h")
     layout.operator(operators.SKYPROBE_OT_now.bl_idname, icon="TIME")
     layout.prop(settings, "zone_mode")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Presets: configurations in files, those that come with the add-on and the user's own."""
 
+import contextlib
 import json
 import os
 from pathlib import Path
@@ -10,6 +11,7 @@ from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from . import compat, configuration, live, operators
+from .failures import Telling
 
 OURS = Path(__file__).resolve().parent / "presets"
 # Characters that some file system does not take.
@@ -17,7 +19,7 @@ FORBIDDEN = '<>:"/\\|?*'
 
 
 def own_folder():
-    """Return the folder of the user's presets, made if it is missing."""
+    """Return the folder of the user's presets, which need not exist."""
     return Path(compat.user_folder("presets"))
 
 
@@ -32,20 +34,31 @@ def all_of(folder):
 def read(path):
     """Return the configuration in the file `path`; ValueError or OSError that names it."""
     try:
-        return json.loads(Path(path).read_text(encoding="utf-8"))
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        # With or without the mark that some editors put first.
+        return json.loads(Path(path).read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise OSError(f"file = {path}: must be a file that can be read ({error.strerror})") from None
+    except RecursionError:
+        raise ValueError(f"{path}: must be JSON text (it is nested too deeply)") from None
+    except ValueError as error:
         raise ValueError(f"{path}: must be JSON text ({error})") from None
 
 
 def write(path, content):
     """Write the configuration `content` to `path`, whole or not at all."""
     path = Path(path)
+    if not path.name:
+        raise ValueError(f"file = {path}: must be the name of a file")
     part = path.with_name(f".{path.name}.part")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         part.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
         os.replace(part, path)
+    except OSError as error:
+        raise OSError(f"file = {path}: must be a short name in a folder that you may write to ({error.strerror})") from None
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            part.unlink(missing_ok=True)
 
 
 def apply(scene, path):
@@ -58,13 +71,9 @@ def apply(scene, path):
             raise ValueError(f"{Path(path).name}: {error}") from None
 
 
-class _Applying:
-    def execute(self, context):
-        try:
-            apply(context.scene, self.filepath)
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+class _Applying(Telling):
+    def run(self, context):
+        apply(context.scene, self.filepath)
         return {"FINISHED"}
 
 
@@ -82,7 +91,7 @@ class SKYPROBE_OT_apply_preset(_Applying, bpy.types.Operator):
         return operators.editable(cls, context)
 
 
-class SKYPROBE_OT_save_preset(bpy.types.Operator):
+class SKYPROBE_OT_save_preset(Telling, bpy.types.Operator):
     """Save the settings of the sky as a preset, for all scenes"""
 
     bl_idname = "skyprobe.save_preset"
@@ -111,22 +120,18 @@ class SKYPROBE_OT_save_preset(bpy.types.Operator):
     def invoke(self, context, event):
         return context.window_manager.invoke_props_dialog(self)
 
-    def execute(self, context):
+    def run(self, context):
         title = self.title.strip()
-        try:
-            if not title or title.startswith(".") or any(letter in FORBIDDEN or ord(letter) < 32 for letter in title):
-                raise ValueError(f"name = {self.title!r}: must be a file's name, without {FORBIDDEN}")
-            if not self.sections:
-                raise ValueError("keep = nothing: must be at least one part of the settings")
-            write(own_folder() / f"{title}.json", configuration.from_settings(context.scene.skyprobe, self.sections))
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if not title or title.startswith(".") or any(letter in FORBIDDEN or ord(letter) < 32 for letter in title):
+            raise ValueError(f"name = {self.title!r}: must be a file's name, without {FORBIDDEN}")
+        if not self.sections:
+            raise ValueError("keep = nothing: must be at least one part of the settings")
+        write(own_folder() / f"{title}.json", configuration.from_settings(context.scene.skyprobe, self.sections))
         self.report({"INFO"}, f"Skyprobe: saved {title}")
         return {"FINISHED"}
 
 
-class SKYPROBE_OT_delete_preset(bpy.types.Operator):
+class SKYPROBE_OT_delete_preset(Telling, bpy.types.Operator):
     """Delete this preset of yours"""
 
     bl_idname = "skyprobe.delete_preset"
@@ -137,15 +142,11 @@ class SKYPROBE_OT_delete_preset(bpy.types.Operator):
     def invoke(self, context, event):
         return context.window_manager.invoke_confirm(self, event)
 
-    def execute(self, context):
+    def run(self, context):
         paths = dict(all_of(own_folder()))
-        try:
-            if self.title not in paths:
-                raise ValueError(f"name = {self.title!r}: must be one of {', '.join(paths) or 'your presets, and there are none'}")
-            os.remove(paths[self.title])
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if self.title not in paths:
+            raise ValueError(f"name = {self.title!r}: must be one of {', '.join(paths) or 'your presets, and there are none'}")
+        os.remove(paths[self.title])
         return {"FINISHED"}
 
 
@@ -164,7 +165,7 @@ class SKYPROBE_OT_import_configuration(_Applying, bpy.types.Operator, ImportHelp
         return operators.editable(cls, context)
 
 
-class SKYPROBE_OT_export_configuration(bpy.types.Operator, ExportHelper):
+class SKYPROBE_OT_export_configuration(Telling, bpy.types.Operator, ExportHelper):
     """Write the settings as a configuration: skyprobe render --config FILE makes the same probe without Blender"""
 
     bl_idname = "skyprobe.export_configuration"
@@ -177,12 +178,8 @@ class SKYPROBE_OT_export_configuration(bpy.types.Operator, ExportHelper):
     def poll(cls, context):
         return context.scene is not None
 
-    def execute(self, context):
-        try:
-            write(self.filepath, configuration.from_settings(context.scene.skyprobe))
-        except (ValueError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+    def run(self, context):
+        write(self.filepath, configuration.from_settings(context.scene.skyprobe))
         return {"FINISHED"}
 
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel tells of the sky, as text."""
 
-import math
 import textwrap
 
 from skyprobe import places
@@ -53,8 +52,19 @@ def amount(value):
 
 
 def place(settings):
-    """Return what place the coordinates are at, such as 12 km N of Lund."""
-    return places.nearest(math.degrees(settings.latitude), math.degrees(settings.longitude)).label
+    """Return what place the coordinates are at, such as 12 km N of Lund, or an empty text if they are none."""
+    try:
+        return places.nearest(values.degrees(settings.latitude), values.degrees(settings.longitude)).label
+    except jobs.USER_ERRORS:
+        return ""
+
+
+def time(settings):
+    """Return the time of day of the settings with its seconds, or a dash if it is no number."""
+    try:
+        return "{:02d}:{:02d}:{:02d}".format(*values.clock(settings))
+    except ValueError:
+        return "\N{EN DASH}"
 
 
 def zone(settings):

@@ -5,7 +5,7 @@ import json
 
 import bpy
 
-from . import jobs, lamps, world_nodes
+from . import compat, jobs, lamps, world_nodes
 
 PREVIEW_NAME = "Skyprobe Preview"
 
@@ -39,9 +39,18 @@ def show_again(scene, request):
     settings = scene.skyprobe
     if settings.image is None or settings.image_key != request.key or not is_lit(scene):
         return False
-    if settings.shown != "PROBE":
-        _own(scene)
-        _show(scene, settings.image, jobs.result_from(json.loads(settings.image_result), request), "PROBE")
+    if settings.shown == "PROBE":
+        return True
+    try:
+        result = jobs.result_from(json.loads(settings.image_result), request)
+    except (ValueError, KeyError, TypeError):
+        # Not what was written there.
+        return False
+    if 0 in settings.image.size:
+        # Its file is gone.
+        return False
+    _own(scene)
+    _show(scene, settings.image, result, "PROBE")
     return True
 
 
@@ -64,7 +73,7 @@ def remove(scene):
         scene.world = settings.previous_world
     settings.previous_world = None
     for name in ("sun_lamp", "moon_lamp"):
-        _remove_lamp(settings, name)
+        _remove_lamp(scene, name)
     _forget_world(settings)
     for name in ("image", "preview_a", "preview_b"):
         old = getattr(settings, name)
@@ -72,7 +81,7 @@ def remove(scene):
         _remove_image(old)
     settings.shown = "NOTHING"
     settings.image_key = settings.image_result = ""
-    _shown_keys.pop(scene.name, None)
+    _shown_keys.pop(compat.key_of(scene), None)
 
 
 def is_lit(scene):
@@ -89,15 +98,15 @@ def has_anything(scene):
 
 def shown_key(scene):
     """Return the jobs.SkyRequest.key of the light that `scene` shows, as far as this session knows."""
-    return _shown_keys.get(scene.name) if is_lit(scene) else None
+    return _shown_keys.get(compat.key_of(scene)) if is_lit(scene) else None
 
 
-# By the scene's name.
+# By compat.key_of the scene.
 _shown_keys = {}
 
 
 def forget():
-    """Forget what scenes show, as when another file is opened."""
+    """Forget what scenes show, as when another file is opened or an older state comes back."""
     _shown_keys.clear()
 
 
@@ -111,8 +120,9 @@ def pack_preview(scene):
 def turn_north(scene):
     """Follow a change of the direction of north, without a new probe."""
     settings = scene.skyprobe
-    if scene.library is not None:
+    if scene.library is not None or not has_anything(scene):
         return
+    _own(scene)
     if settings.probe_world:
         world_nodes.set_north(settings.probe_world, settings.north)
     for lamp, azimuth in ((settings.sun_lamp, settings.sun_azimuth_deg), (settings.moon_lamp, settings.moon_azimuth_deg)):
@@ -135,7 +145,7 @@ def _show(scene, image, result, what):
         ("moon_lamp", lamps.MOON, result.moon, moon_in_map),
     ):
         if in_map:
-            _remove_lamp(settings, name)
+            _remove_lamp(scene, name)
         else:
             thing = lamps.link(scene, getattr(settings, name), title)
             setattr(settings, name, thing)
@@ -150,31 +160,48 @@ def _show(scene, image, result, what):
     settings.sun_azimuth_deg = result.sun.azimuth_deg
     settings.moon_azimuth_deg = result.moon.azimuth_deg if result.moon else 0.0
     settings.shown = what
-    _shown_keys[scene.name] = result.request.key
+    _shown_keys[compat.key_of(scene)] = result.request.key
 
 
 def _own(scene):
-    """Make sure that no other scene shows what this one is about to change: a copied scene begins with the same world, lamps and images."""
+    """Make sure that nothing else shows what this scene is about to change: a copied scene begins with the same world, lamps and previews."""
     settings = scene.skyprobe
-    others = [other.skyprobe for other in bpy.data.scenes if other != scene]
-    for name in ("image", "preview_a", "preview_b", "sun_lamp", "moon_lamp"):
-        mine = getattr(settings, name)
-        if mine is not None and any(getattr(other, name) == mine for other in others):
-            if name.endswith("lamp") and mine.name in scene.objects:
-                _unlink(scene, mine)
+    for name in ("preview_a", "preview_b"):
+        if _is_foreign(scene, name):
             setattr(settings, name, None)
-    world = settings.probe_world
-    if world is not None and any(other.probe_world == world for other in others):
+    for name in ("sun_lamp", "moon_lamp"):
+        if _is_foreign(scene, name):
+            old = getattr(settings, name)
+            lamp = lamps.copy(old)
+            _take_out(scene, name)
+            scene.collection.objects.link(lamp)
+            setattr(settings, name, lamp)
+    if _is_foreign(scene, "probe_world"):
+        world = settings.probe_world
         settings.probe_world = world.copy()
         if scene.world == world:
             scene.world = settings.probe_world
 
 
-def _unlink(scene, lamp):
+def _is_foreign(scene, name):
+    """Whether what `scene` has under `name` belongs to another scene too, or to another file."""
+    mine = getattr(scene.skyprobe, name)
+    if mine is None:
+        return False
+    return mine.library is not None or any(getattr(other.skyprobe, name) == mine for other in bpy.data.scenes if other != scene)
+
+
+def _take_out(scene, name):
+    """Take a lamp that is another scene's too out of this one."""
+    lamp = getattr(scene.skyprobe, name)
+    setattr(scene.skyprobe, name, None)
+    owners = [other for other in bpy.data.scenes if other != scene and other.library is None and getattr(other.skyprobe, name) == lamp]
     for collection in (scene.collection, *scene.collection.children_recursive):
-        # A collection that both scenes show keeps it.
-        if collection == scene.collection and collection.objects.get(lamp.name) == lamp:
+        if collection.library is None and collection.objects.get(lamp.name) == lamp:
             collection.objects.unlink(lamp)
+    # A collection that both scenes show had it for both.
+    for other in owners:
+        lamps.link(other, lamp, lamp.name)
 
 
 def _shown_image(scene):
@@ -193,8 +220,11 @@ def _forget_world(settings):
         bpy.data.worlds.remove(old)
 
 
-def _remove_lamp(settings, name):
-    old = getattr(settings, name)
-    setattr(settings, name, None)
+def _remove_lamp(scene, name):
+    if _is_foreign(scene, name):
+        _take_out(scene, name)
+        return
+    old = getattr(scene.skyprobe, name)
+    setattr(scene.skyprobe, name, None)
     if old:
         lamps.remove(old)

@@ -35,7 +35,14 @@ class SequenceFiles:
 
     def prepare(self, frames, width):
         """Make the folders and check that the disk holds `frames` more pictures `width` wide; raise OSError if not."""
-        (self.folder / RECORDS).mkdir(parents=True, exist_ok=True)
+        records = self.folder / RECORDS
+        try:
+            records.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise OSError(f"folder = {self.folder}: must be one that can be made and written to ({error.strerror}); choose another") from None
+        for folder in (self.folder, records):
+            if not os.access(folder, os.W_OK):
+                raise OSError(f"folder = {folder}: must be one that you may write to; choose another")
         for left in self.folder.glob(".skyprobe-*.part"):
             if time.time() - left.stat().st_mtime > ABANDONED_S:
                 left.unlink()
@@ -53,7 +60,8 @@ class SequenceFiles:
             if content["request"] != _digest(request) or content["size"] != os.path.getsize(self.picture(frame)):
                 return None
             return jobs.result_from(content["result"], request)
-        except (OSError, ValueError, KeyError, TypeError):
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            # A damaged record is none.
             return None
 
     def finish(self, frame, result):
@@ -66,8 +74,13 @@ class SequenceFiles:
         }
         record = self._record(frame)
         part = record.with_suffix(f".{os.getpid()}.part")
-        part.write_text(json.dumps(content, indent=1), encoding="utf-8")
-        os.replace(part, record)
+        try:
+            part.write_text(json.dumps(content, indent=1), encoding="utf-8")
+            os.replace(part, record)
+        except OSError as error:
+            raise OSError(f"{record}: cannot be written ({error.strerror}); make room, or choose another folder") from None
+        finally:
+            part.unlink(missing_ok=True)
 
     def _record(self, frame):
         return self.folder / RECORDS / f"{self.prefix}{frame:04d}.json"

@@ -17,6 +17,10 @@ OPTIONAL_AIR = (
     ("use_ozone", "ozone_du"),
     ("use_stratosphere", "stratospheric_aod550"),
 )
+# Years of the civil date.
+FIRST_YEAR, LAST_YEAR = 1000, 3000
+# The longest path that Blender keeps [bytes].
+LONGEST_PATH = 1023
 # The preview's air is solved as coarsely as the library offers.
 PREVIEW_QUALITY = "draft"
 # What the eye sees at best [magnitude].
@@ -90,8 +94,16 @@ def degrees(angle):
     return as_typed(math.degrees(angle))
 
 
+def check_finite(settings, *names):
+    """Raise ValueError for a property that a script or a driver made no number."""
+    for name in names:
+        if not math.isfinite(getattr(settings, name)):
+            raise ValueError(f"{name} = {getattr(settings, name)}: must be a number; look for the script or the driver that sets it")
+
+
 def clock(settings):
     """Return (hour, minute, second) of the time of day."""
+    check_finite(settings, "hour")
     seconds = min(round(settings.hour * 3600.0), 86399)
     return seconds // 3600, seconds // 60 % 60, seconds % 60
 
@@ -116,13 +128,21 @@ def time(settings):
     if settings.zone_mode == "NAME":
         text = f"{text}[{settings.zone_name.strip()}]"
     elif settings.zone_mode == "OFFSET":
+        check_finite(settings, "utc_offset")
         minutes = round(settings.utc_offset * 60.0)
         text = f"{text}{'-' if minutes < 0 else '+'}{abs(minutes) // 60:02d}:{abs(minutes) % 60:02d}"
+    check_finite(settings, "time_offset_h")
     if settings.time_offset_h == 0.0:
         return text
     start = places.civil_time(text, **_where(settings)).time
-    shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
-    return shifted.strftime("%Y-%m-%dT%H:%M:%S+00:00")
+    try:
+        shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
+    except OverflowError:
+        shifted = None
+    # The years that the calendar of the panel has.
+    if shifted is None or not FIRST_YEAR <= shifted.year <= LAST_YEAR:
+        raise ValueError(f"time_offset_h = {settings.time_offset_h:g}: must lead to a year from {FIRST_YEAR} to {LAST_YEAR}")
+    return shifted.isoformat(timespec="seconds")
 
 
 def civil_time(settings):
@@ -134,6 +154,7 @@ def now(settings):
     """Return this moment as a datetime with the offset of the settings' zone."""
     moment = datetime.datetime.now(datetime.timezone.utc)
     if settings.zone_mode == "OFFSET":
+        check_finite(settings, "utc_offset")
         return moment.astimezone(datetime.timezone(datetime.timedelta(hours=settings.utc_offset)))
     zone = settings.zone_name.strip() if settings.zone_mode == "NAME" else places.time_zone(**_where(settings))
     return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **_where(settings)).time.tzinfo)
@@ -189,7 +210,8 @@ def final_request(scene):
 
 
 def sky_request(settings, quality, pixels):
-    """Return the jobs.SkyRequest of `settings` at a quality of the air and a width [pixels]."""
+    """Return the jobs.SkyRequest of `settings` at a quality of the air and a width [pixels]; ValueError for settings that make no sense."""
+    check_finite(settings, "north")
     return jobs.SkyRequest(
         air=air(settings, quality),
         place=place(settings),
@@ -211,7 +233,18 @@ def folder(settings, directory=None):
         raise ValueError(f"folder = {directory}: must be absolute until the .blend is saved")
     if not directory.strip():
         raise ValueError("folder = (empty): must be the name of a folder; // is where the .blend is")
-    return os.path.normpath(bpy.path.abspath(directory))
+    path = bpy.path.abspath(directory)
+    if not os.path.isabs(path):
+        raise ValueError(f"folder = {directory}: must be absolute, or begin with // for where the .blend is")
+    return os.path.normpath(path)
+
+
+def check_path(path):
+    """Raise ValueError for a path that is too long for Blender; return it."""
+    length = len(os.fsencode(path))
+    if length > LONGEST_PATH:
+        raise ValueError(f"folder = {os.path.dirname(path)}: must be shorter; {length} bytes with the file's name, and Blender takes {LONGEST_PATH}")
+    return path
 
 
 def probe_path(settings):
@@ -219,4 +252,4 @@ def probe_path(settings):
     where, when = place(settings), time(settings)
     stamp = when[:16].replace("-", "").replace(":", "")
     name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{width(settings)}.exr"
-    return os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name)
+    return check_path(os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name))

@@ -7,12 +7,10 @@ Lines are part of the scene: things before them hide them. Nothing may raise whi
 drawn until a setting changes.
 """
 
-import traceback
-
 import bpy
 from mathutils import Vector
 
-from . import jobs, viewport_pens, viewport_scenery
+from . import failures, viewport_pens, viewport_scenery
 
 _handles = []
 _scenery = viewport_scenery.Keeper()
@@ -54,13 +52,8 @@ def _guarded(draw):
             return
         try:
             draw(context, _scenery.of(settings))
-        except jobs.USER_ERRORS as error:
-            # The panel tells the same of the settings.
-            _failure = str(error)
         except Exception as error:
-            _failure = repr(error)
-            traceback.print_exc()
-            print("Skyprobe: nothing is drawn in the viewport until a setting changes")
+            _failure = failures.line(error)
 
     return handler
 

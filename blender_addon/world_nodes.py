@@ -5,6 +5,7 @@ The nodes go into a copy of the world that the scene had: the copy keeps its vol
 as it was for other scenes and comes back unchanged. All is plain Blender data, so a file shows its sky without the add-on.
 """
 
+import contextlib
 import math
 
 import bpy
@@ -18,22 +19,39 @@ COORDINATE, MAPPING, ENVIRONMENT, BACKGROUND = "Skyprobe Direction", "Skyprobe N
 
 
 def load_image(path, pack):
-    """Load the probe at `path` as a new image, inside the .blend if `pack`.
+    """Load the probe at `path` as a new image, inside the .blend if `pack`; OSError if it is no picture, and nothing is loaded.
 
     Always a new datablock: Cycles keeps the old pixels of an image that changes in place.
     """
-    image = bpy.data.images.load(path, check_existing=False)
-    compat.set_linear_rec709(image)
-    image.alpha_mode = "NONE"
-    if 0 in image.size:
+    try:
+        image = bpy.data.images.load(path, check_existing=False)
+    except RuntimeError:
+        raise OSError(f"{path}: must be there until Blender has read it; render it again") from None
+    try:
+        compat.set_linear_rec709(image)
+        image.alpha_mode = "NONE"
+        if 0 in image.size:
+            raise OSError(f"{path}: must be a picture that Blender can read; render it again")
+        if pack:
+            image.pack()
+    except BaseException:
         bpy.data.images.remove(image)
-        raise OSError(f"{path}: Blender cannot read this picture")
+        raise
     if pack:
-        image.pack()
         # The temporary file goes; this is where "Unpack" would put the picture.
         image.filepath_raw = "//" + bpy.path.basename(path)
     elif bpy.data.filepath:
-        image.filepath_raw = bpy.path.relpath(path)
+        # On another drive than the .blend's a path stays absolute.
+        with contextlib.suppress(ValueError):
+            image.filepath_raw = bpy.path.relpath(path)
+    return image
+
+
+def load_sequence(path):
+    """Load the sequence whose first picture is at `path`; OSError if that is no picture, and nothing is loaded."""
+    image = load_image(path, pack=False)
+    image.name = "Skyprobe Sequence"
+    image.source = "SEQUENCE"
     return image
 
 
@@ -47,6 +65,8 @@ def new_world(old):
 
 def show(world, image, north):
     """Make `world` emit `image`, north turned by `north` [radians clockwise from +Y, seen from above]."""
+    # The user may have switched them off.
+    compat.use_world_nodes(world)
     nodes, links = world.node_tree.nodes, world.node_tree.links
     output = world.node_tree.get_output_node("ALL") or nodes.new("ShaderNodeOutputWorld")
     x, y = output.location
@@ -65,13 +85,15 @@ def show(world, image, north):
 
 
 def set_north(world, north):
-    """Turn the map. A direction of the scene is turned back, counter-clockwise, before it is looked up."""
-    world.node_tree.nodes[MAPPING].inputs["Rotation"].default_value = (0.0, 0.0, north)
+    """Turn the map, if it is there. A direction of the scene is turned back, counter-clockwise, before it is looked up."""
+    mapping = _find(world, MAPPING, "ShaderNodeMapping")
+    if mapping is not None:
+        mapping.inputs["Rotation"].default_value = (0.0, 0.0, north)
 
 
 def shown_image(world):
     """Return the image that `world` emits, or None."""
-    environment = world.node_tree.nodes.get(ENVIRONMENT) if world.node_tree else None
+    environment = _find(world, ENVIRONMENT, "ShaderNodeTexEnvironment")
     return environment.image if environment else None
 
 
@@ -134,8 +156,18 @@ def set_discs_as_lamps(world):
     compat.set_sun_extraction(world, 0.0)
 
 
+def _find(world, name, kind):
+    """Return the node `name` of `world`, or None if it is gone or of another kind."""
+    node = world.node_tree.nodes.get(name) if world.node_tree else None
+    return node if node is not None and node.bl_idname == kind else None
+
+
 def _node(nodes, name, kind, location):
     node = nodes.get(name)
+    if node is not None and node.bl_idname != kind:
+        # A node of the user's under our name.
+        node.name = f"{name} (another)"
+        node = None
     if node is None:
         node = nodes.new(kind)
         node.name = node.label = name

@@ -7,7 +7,7 @@ import math
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from skyprobe import places
 
-from .. import live, scene_probe, viewport_drawing
+from .. import failures, jobs, live, scene_probe, values, viewport_drawing
 
 # How many names a search offers.
 SUGGESTIONS = 20
@@ -17,7 +17,7 @@ def _search_places(settings, context, text):
     """Offer the places whose names begin like `text`."""
     try:
         return [place.label for place in places.search(text, limit=SUGGESTIONS)] if text.strip() else []
-    except ValueError:
+    except jobs.USER_ERRORS:
         return []
 
 
@@ -29,13 +29,12 @@ def _place_chosen(settings, context):
     scene = settings.id_data
     try:
         found = places.locate(text)
-    except ValueError as error:
-        live.complain(scene, str(error))
+    except Exception as error:
+        live.complain(scene, failures.line(error))
         return
     with live.held(scene):
         settings.latitude, settings.longitude = math.radians(found.latitude), math.radians(found.longitude)
         settings.elevation_m = found.elevation_m
-    live.complain(scene, "")
 
 
 def _day_of_year(settings):
@@ -59,7 +58,11 @@ def _set_day_of_year(settings, number):
 
 
 def _north_changed(settings, context):
-    scene_probe.turn_north(settings.id_data)
+    try:
+        values.check_finite(settings, "north")
+        scene_probe.turn_north(settings.id_data)
+    except Exception as error:
+        live.complain(settings.id_data, failures.line(error))
     viewport_drawing.tag_redraw()
 
 
@@ -109,8 +112,8 @@ class PlaceAndTime:
     year: IntProperty(
         name="Year",
         description="Year of the civil date",
-        min=1000,
-        max=3000,
+        min=values.FIRST_YEAR,
+        max=values.LAST_YEAR,
         soft_min=1900,
         soft_max=2100,
         default=2025,

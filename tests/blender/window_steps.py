@@ -237,7 +237,7 @@ def render_beside(picture, path):
     enable()
     yield
     yield from show_panels()
-    operators, scene_probe = (sys.modules[f"{PACKAGE}.{name}"] for name in ("operators", "scene_probe"))
+    beside, operators = (sys.modules[f"{PACKAGE}.{name}"] for name in ("beside", "operators"))
     settings = bpy.context.scene.skyprobe
     with context("VIEW_3D"):
         bpy.ops.skyprobe.add()
@@ -246,9 +246,9 @@ def render_beside(picture, path):
         bpy.ops.skyprobe.render("INVOKE_DEFAULT")
     turns, fractions = 0, set()
     pictured = False
-    while operators.running_job is not None:
+    while beside.current is not None:
         turns += 1
-        fractions.add(operators.running_job.fraction)
+        fractions.add(beside.current.progress()[0])
         if not pictured and turns > 2:
             screenshot(picture)
             pictured = True
@@ -260,14 +260,14 @@ def render_beside(picture, path):
     with context("VIEW_3D"):
         bpy.ops.skyprobe.render("INVOKE_DEFAULT")
     yield 0.2
-    begun = operators.running_job is not None
+    begun = beside.current is not None
     view = area("VIEW_3D")
     x, y = view.x + view.width // 3, view.y + view.height // 2
     window().event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
     window().event_simulate(type="ESC", value="PRESS", x=x, y=y)
     window().event_simulate(type="ESC", value="RELEASE", x=x, y=y)
     start = time.perf_counter()
-    while operators.running_job is not None:
+    while beside.current is not None:
         yield 0.02
     return {
         "turns": turns,
