@@ -3,21 +3,26 @@
 
 import bpy
 
-from . import beside, choices, compat, live, operators, presets, readout, scene_probe, sequence, values
+from . import beside, choices, compat, live, operators, presets, readout, scene_probe, sequence, values, viewport_drawing
 
 
 def _draw_top(layout, scene, settings):
     _draw_run(layout, scene, settings)
     live.ensure_readout(scene)
     shown = live.readout(scene)
-    if shown.message:
-        # A label does not break its lines.
-        box = layout.box().column(align=True)
-        for number, line in enumerate(readout.wrapped(shown.message)):
-            box.label(text=line, icon="ERROR" if number == 0 else "BLANK1")
+    _draw_message(layout, shown.message)
     column = layout.column(align=True)
     for icon, text in readout.lines(shown, settings):
         column.label(text=text, icon=icon)
+
+
+def _draw_message(layout, message):
+    if not message:
+        return
+    # A label does not break its lines.
+    box = layout.box().column(align=True)
+    for number, line in enumerate(readout.wrapped(message)):
+        box.label(text=line, icon="ERROR" if number == 0 else "BLANK1")
 
 
 def _draw_run(layout, scene, settings):
@@ -167,6 +172,7 @@ def _draw_viewport(layout, scene, settings):
     column.prop(settings, "show_analemma")
     column.prop(settings, "show_north")
     layout.prop(settings, "helper_size")
+    _draw_message(layout, viewport_drawing.failure())
 
 
 # Name, title, what draws it, whether it is closed at first.

@@ -54,7 +54,7 @@ def amount(value):
 def place(settings):
     """Return what place the coordinates are at, such as 12 km N of Lund, or an empty text if they are none."""
     try:
-        return places.nearest(values.degrees(settings.latitude), values.degrees(settings.longitude)).label
+        return places.nearest(**values.coordinates(settings)).label
     except jobs.USER_ERRORS:
         return ""
 

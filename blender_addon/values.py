@@ -4,6 +4,7 @@
 import datetime
 import math
 import os
+import re
 from dataclasses import replace
 
 import bpy
@@ -72,11 +73,13 @@ def layers(settings):
 
 def place(settings):
     """Return latitude, longitude [degrees] and elevation_m as keywords of skyprobe.Sky."""
-    return {
-        "latitude": degrees(settings.latitude),
-        "longitude": degrees(settings.longitude),
-        "elevation_m": as_typed(settings.elevation_m),
-    }
+    return {**coordinates(settings), "elevation_m": as_typed(settings.elevation_m)}
+
+
+def coordinates(settings):
+    """Return latitude and longitude [degrees] as keywords; the poles and the date line are exact."""
+    limits = {"latitude": math.pi / 2.0, "longitude": math.pi}
+    return {name: degrees(min(max(getattr(settings, name), -limit), limit)) for name, limit in limits.items()}
 
 
 def width(settings):
@@ -117,6 +120,14 @@ def date(settings):
         raise ValueError(f"date = {text}: must be a day of the calendar; that month is shorter") from None
 
 
+def zone_name(settings):
+    """Return the name of the time zone; ValueError for what can be no name of one."""
+    name = settings.zone_name.strip()
+    if not re.fullmatch(r"[\w+-]+(/[\w+-]+)*", name, re.ASCII):
+        raise ValueError(f"zone = {name or '(empty)'}: must be a name of the IANA database, such as Europe/Stockholm")
+    return name
+
+
 def time(settings):
     """Return the time as ISO 8601 with its zone in brackets, its offset, or neither where the place decides.
 
@@ -126,7 +137,7 @@ def time(settings):
     hour, minute, second = clock(settings)
     text = f"{settings.year:04d}-{settings.month:02d}-{settings.day:02d}T{hour:02d}:{minute:02d}:{second:02d}"
     if settings.zone_mode == "NAME":
-        text = f"{text}[{settings.zone_name.strip()}]"
+        text = f"{text}[{zone_name(settings)}]"
     elif settings.zone_mode == "OFFSET":
         check_finite(settings, "utc_offset")
         minutes = round(settings.utc_offset * 60.0)
@@ -134,7 +145,7 @@ def time(settings):
     check_finite(settings, "time_offset_h")
     if settings.time_offset_h == 0.0:
         return text
-    start = places.civil_time(text, **_where(settings)).time
+    start = places.civil_time(text, **coordinates(settings)).time
     try:
         shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
     except OverflowError:
@@ -147,7 +158,7 @@ def time(settings):
 
 def civil_time(settings):
     """Return the skyprobe.places.CivilTime of the settings: the time with its offset, zone, and whether it is summer time."""
-    return places.civil_time(time(settings), **_where(settings))
+    return places.civil_time(time(settings), **coordinates(settings))
 
 
 def now(settings):
@@ -156,8 +167,8 @@ def now(settings):
     if settings.zone_mode == "OFFSET":
         check_finite(settings, "utc_offset")
         return moment.astimezone(datetime.timezone(datetime.timedelta(hours=settings.utc_offset)))
-    zone = settings.zone_name.strip() if settings.zone_mode == "NAME" else places.time_zone(**_where(settings))
-    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **_where(settings)).time.tzinfo)
+    zone = zone_name(settings) if settings.zone_mode == "NAME" else places.time_zone(**coordinates(settings))
+    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **coordinates(settings)).time.tzinfo)
 
 
 def set_clock(settings, moment):
@@ -189,10 +200,6 @@ def span(settings, name):
     if name == "NIGHT":
         end += 24.0 * hour
     return begin, (end - begin).total_seconds() / 3600.0
-
-
-def _where(settings):
-    return {"latitude": degrees(settings.latitude), "longitude": degrees(settings.longitude)}
 
 
 def preview_request(scene):

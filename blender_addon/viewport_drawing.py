@@ -54,6 +54,7 @@ def _guarded(draw):
             draw(context, _scenery.of(settings))
         except Exception as error:
             _failure = failures.line(error)
+            print(f"Skyprobe: nothing is drawn in the viewport until a setting changes: {_failure}")
 
     return handler
 
