@@ -48,7 +48,7 @@ def from_settings(settings, sections=SECTIONS):
 def to_settings(content, settings):
     """Give `settings` what the configuration `content` holds; ValueError, before any change, for what it cannot hold."""
     if not isinstance(content, dict):
-        raise ValueError("configuration = text: must be a JSON object, as skyprobe render --dump-config writes it")
+        raise ValueError(f"configuration = {content!r}: must be a JSON object, as skyprobe render --dump-config writes it")
     changes = {}
     readers = {
         **{key: _read_place for key in PLACE},
@@ -172,7 +172,7 @@ def _read_night(key, value, changes):
         if name == "bortle":
             changes["light_pollution"] = str(content)
         elif name in names:
-            changes[names[name]] = content
+            changes[names[name]] = content if name == "when" else _number(f"{key}.{name}", content)
         else:
             raise ValueError(f"{key}.{name} = {content!r}: must not be there; the panel has no such setting")
 

@@ -191,7 +191,10 @@ def write(request, path, progress=None):
     probe, result = render(sky_of(request), request, progress)
     if progress is not None and not progress("write", 0.0):
         raise skyprobe.Cancelled("cancelled")
-    probe.save(path)
+    try:
+        probe.save(path)
+    except OSError as error:
+        raise OSError(f"{error}; make room there, or choose another folder") from None
     return result
 
 
