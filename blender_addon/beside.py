@@ -115,13 +115,15 @@ class Beside(failures.Telling):
         work = self._work
         if work is not current:
             return {"CANCELLED"}
-        if event.type == "ESC":
+        computing = work.job is not None and work.job.is_alive()
+        # What is finished waits for a render of Blender's own, which may be what Esc is meant for.
+        if event.type == "ESC" and (computing or not compat.is_rendering()):
             cancel()
             return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         # Under a render of Blender's own nothing may change.
-        if compat.is_rendering() or (work.job is not None and work.job.is_alive()):
+        if computing or compat.is_rendering():
             self._show_progress(context)
             return {"PASS_THROUGH"}
         return self.told(self._go_on)

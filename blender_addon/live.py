@@ -70,6 +70,14 @@ class _Worker(threading.Thread):
         with self._lock:
             return not self._wanted and self._now is None and not self._done
 
+    def drop(self, scene_key):
+        """Forget what is wanted, made and done of a scene."""
+        with self._lock:
+            self._wanted.pop(scene_key, None)
+            self._done = [outcome for outcome in self._done if outcome[0] != scene_key]
+            if self._now is not None and self._now[0] == scene_key:
+                self._now = None
+
     def clear(self):
         """Forget all that was wanted and done."""
         with self._lock:
@@ -175,6 +183,9 @@ def request(scene):
         else:
             picture = _wants_picture(scene)
     except Exception as error:
+        # What was asked for before must not arrive as if all were well.
+        if _worker is not None:
+            _worker.drop(compat.key_of(scene))
         complain(scene, failures.line(error))
         return
     if bpy.app.background:
@@ -235,8 +246,8 @@ def _arrive(scene, pixels, outcome, picture):
         return
     readout(scene).result = outcome
     complain(scene, "")
-    # The scene may have got another world, or a rendered probe, in the meantime.
-    if picture and _wants_picture(scene):
+    # The scene may have got another world, or the rendered probe of its settings, in the meantime.
+    if picture and _wants_picture(scene) and not scene_probe.show_again(scene, values.final_request(scene)):
         scene_probe.show_preview(scene, pixels, outcome)
     if scene_probe.is_lit(scene):
         exposure.follow(scene, outcome.horizontal_lx)
