@@ -65,6 +65,11 @@ def scene_of(key):
     return next((scene for scene in bpy.data.scenes if key_of(scene) == key), None)
 
 
+def is_unused(thing):
+    """Whether nothing uses the datablock `thing`. Blender 4.2 counts users of a copied scene that are not there."""
+    return thing.users == 0 or not (thing.use_fake_user or bpy.data.user_map(subset={thing})[thing])
+
+
 def layout_progress(layout, factor, text):
     """Show that `factor` (0 to 1) of a work is done. Before 4.0 there is no bar, only the text."""
     if bpy.app.version < (4, 0, 0):

@@ -82,5 +82,5 @@ def remove(lamp):
     """Delete the lamp and, if nothing else uses it, its light."""
     light = lamp.data
     bpy.data.objects.remove(lamp)
-    if light is not None and light.users == 0:
+    if light is not None and compat.is_unused(light):
         bpy.data.lights.remove(light)

@@ -210,13 +210,13 @@ def _shown_image(scene):
 
 
 def _remove_image(image):
-    if image is not None and image.users == 0:
+    if image is not None and compat.is_unused(image):
         bpy.data.images.remove(image)
 
 
 def _forget_world(settings):
     old, settings.probe_world = settings.probe_world, None
-    if old and old.users == 0:
+    if old and compat.is_unused(old):
         bpy.data.worlds.remove(old)
 
 
