@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finish a rendered picture: the glare of the eye on the Render Result, as a new image. The render itself stays as it is."""
+"""Finish a rendered picture: the glare of the eye on the Render Result and, if asked for, tone mapping. New images; the render itself stays as it is."""
 
 import contextlib
 import math
@@ -12,7 +12,9 @@ from skyprobe import post
 
 from . import compat, jobs
 
+# Linear light with glare, and what a screen shows of it.
 IMAGE_NAME = "Skyprobe Glare"
+SCREEN_IMAGE_NAME = "Skyprobe Finished"
 
 STATES = (
     ("auto", "Automatic", "By the mean luminance of the picture"),
@@ -25,6 +27,19 @@ LIGHTS = (
     ("AUTO", "Automatic", "What exceeds 20 times the mean luminance of the picture"),
     ("VALUE", "Threshold", "What exceeds a luminance"),
     ("ALL", "All Light", "All light, as in the eye"),
+)
+
+TONES = (
+    ("NONE", "None", "Only the linear picture with glare, for Blender's own view transform"),
+    ("sky", "Sky", "Made for skies by day and night: adaptation, dim colours of the night"),
+    ("filmic", "Filmic", "In the manner of AgX"),
+    ("aces", "ACES", "Fitted to the ACES transform"),
+    ("exposure", "Exposure", "1 - exp(-light), as film"),
+    ("reinhard", "Reinhard", "Reinhard et al. 2002, the same curve everywhere"),
+    ("reinhard_local", "Reinhard, Local", "Reinhard et al. 2002, with local contrast"),
+    ("ashikhmin", "Ashikhmin", "Ashikhmin 2002"),
+    ("logarithmic", "Logarithmic", "In proportion to the logarithm of luminance"),
+    ("linear", "Linear", "In proportion to luminance, clamped"),
 )
 
 
@@ -60,15 +75,19 @@ def image_pixels(image):
 
 
 def show_pixels(name, pixels):
-    """Put `pixels`, (H, W, 3), row 0 at the top, into the float image `name`, and show it in every open image editor; return the image."""
+    """Put `pixels`, (H, W, 3), row 0 at the top, into the image `name`, and show it in every open image editor; return the image.
+
+    Linear light (float32) makes a float image, bytes (uint8) one for the screen.
+    """
     height, width, _ = pixels.shape
+    is_light = pixels.dtype == numpy.float32
     image = bpy.data.images.get(name)
     if image is not None and tuple(image.size) != (width, height):
         image.scale(width, height)
     if image is None:
-        image = bpy.data.images.new(name, width, height, alpha=False, float_buffer=True)
+        image = bpy.data.images.new(name, width, height, alpha=False, float_buffer=is_light)
     flat = numpy.ones((height, width, 4), dtype=numpy.float32)
-    flat[:, :, :3] = pixels[::-1]
+    flat[:, :, :3] = pixels[::-1] if is_light else pixels[::-1] / 255.0
     image.pixels.foreach_set(flat.ravel())
     image.update()
     screen = bpy.context.screen
@@ -144,6 +163,10 @@ class SKYPROBE_OT_glare(bpy.types.Operator):
         min=1e-6,
         max=1e9,
     )
+    tone: bpy.props.EnumProperty(name="Tone Mapping", description="How the picture comes to the screen, as a second image", items=TONES, default="NONE")
+    exposure_stops: bpy.props.FloatProperty(
+        name="Exposure", description="Relative to the automatic one [stops]", default=0.0, min=-20.0, max=20.0, soft_min=-5.0, soft_max=5.0
+    )
     own_view: bpy.props.BoolProperty(name="Own Field of View", description="Instead of that of the scene's camera", default=False)
     field_of_view: bpy.props.FloatProperty(
         name="Field of View",
@@ -172,6 +195,9 @@ class SKYPROBE_OT_glare(bpy.types.Operator):
             layout.prop(self, name)
         if self.own_view:
             layout.prop(self, "field_of_view")
+        layout.prop(self, "tone")
+        if self.tone != "NONE":
+            layout.prop(self, "exposure_stops")
 
     def execute(self, context):
         window_manager = context.window_manager
@@ -195,6 +221,7 @@ class SKYPROBE_OT_glare(bpy.types.Operator):
             view = {"projection": "perspective", "field_of_view_deg": math.degrees(self.field_of_view)}
         else:
             view = view_of(scene)
+        view |= {"white_luminance": self.white_luminance, "color_space": compat.working_color_space()}
         pixels, report = post.glare(
             rendered_pixels(scene),
             **view,
@@ -204,11 +231,12 @@ class SKYPROBE_OT_glare(bpy.types.Operator):
             size=self.size,
             streaks=self.streaks,
             seed=self.seed,
-            white_luminance=self.white_luminance,
-            color_space=compat.working_color_space(),
             progress=progress,
         )
         show_pixels(IMAGE_NAME, pixels)
+        if self.tone != "NONE":
+            mapped, _ = post.tone_map(pixels, self.tone, exposure_stops=self.exposure_stops, **view, progress=progress)
+            show_pixels(SCREEN_IMAGE_NAME, mapped)
         return report
 
 

@@ -61,6 +61,23 @@ def glare(out_path=None, **options):
     }
 
 
+def tone_mapped():
+    """Render, add glare and map tones with every operator; return the largest difference from the library, of 255."""
+    scene = lit_scene()
+    scene.render.resolution_x, scene.render.resolution_y = 96, 64
+    picture_of(scene, 4)
+    finish = steps.part("finish")
+    view = finish.view_of(scene)
+    differences = {}
+    for name, *_ in finish.TONES[1:]:
+        bpy.ops.skyprobe.glare(tone=name, exposure_stops=-1.0)
+        light = steps.pixels_of(bpy.data.images[finish.IMAGE_NAME])
+        expected, _ = post.tone_map(light, name, exposure_stops=-1.0, **view)
+        shown = bpy.data.images[finish.SCREEN_IMAGE_NAME]
+        differences[name] = float(np.abs(steps.pixels_of(shown) * 255.0 - expected).max())
+    return {"differences": differences, "is_float": shown.is_float, "color_space": shown.colorspace_settings.name}
+
+
 def refused():
     """Ask for glare without a render, and with a camera that has no field of view; return the messages."""
     scene = lit_scene()

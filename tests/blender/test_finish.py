@@ -25,6 +25,13 @@ def test_the_operator_adds_the_librarys_glare_to_the_render(host, state, tmp_pat
     assert 0.97 < glared.sum() / rendered.sum() < 1.0
 
 
+def test_every_tone_operator_of_the_menu_is_the_librarys(host):
+    answer = host.run("finish_steps.tone_mapped")
+    assert len(answer["differences"]) == 9
+    assert max(answer["differences"].values()) < 0.01, answer
+    assert not answer["is_float"] and answer["color_space"] == "sRGB"
+
+
 def test_what_cannot_be_finished_is_told(host):
     answer = host.run("finish_steps.refused")
     assert answer["no_render"] is False
