@@ -10,7 +10,8 @@ import bpy
 import numpy
 from skyprobe import post
 
-from . import compat, jobs
+from . import compat
+from .failures import Telling
 
 # Linear light with glare, and what a screen shows of it.
 IMAGE_NAME = "Skyprobe Glare"
@@ -139,7 +140,7 @@ def _panorama(camera):
     return holder.panorama_type, holder.fisheye_fov
 
 
-class SKYPROBE_OT_glare(bpy.types.Operator):
+class SKYPROBE_OT_glare(Telling, bpy.types.Operator):
     """Add the glare of the eye to the last render, as a new image"""
 
     bl_idname = "skyprobe.glare"
@@ -199,14 +200,14 @@ class SKYPROBE_OT_glare(bpy.types.Operator):
         if self.tone != "NONE":
             layout.prop(self, "exposure_stops")
 
-    def execute(self, context):
+    def run(self, context):
         window_manager = context.window_manager
         window_manager.progress_begin(0.0, 1.0)
         try:
             report = self._run(context, lambda stage, fraction: window_manager.progress_update(fraction))
-        except (*jobs.USER_ERRORS, RuntimeError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        except RuntimeError as error:
+            # What Blender says when it cannot save its render.
+            raise OSError(f"Render Result: {error}") from None
         finally:
             window_manager.progress_end()
         told = "" if report.threshold is None else f", above {report.threshold:.4g} cd/m\N{SUPERSCRIPT TWO}"
