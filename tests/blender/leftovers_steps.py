@@ -1,11 +1,12 @@
 """What tests/blender/test_leftovers.py lets Blender do. Each function runs in a process of its own (hosts.run)."""
 
 import gc
+import sys
 import threading
 
 import addon_utils
 import bpy
-from steps import PACKAGE, census, enable, part, set_up
+from steps import PACKAGE, census, enable, set_up
 
 
 def off_and_on(times):
@@ -30,6 +31,8 @@ def off_and_on(times):
 def traces():
     """Return all of the extension that Blender and Python know of, and how much is in the file beside the test's scene."""
     gc.collect()
+    # Not there before it is enabled for the first time.
+    live, drawing = (sys.modules.get(f"{PACKAGE}.{name}") for name in ("live", "viewport_drawing"))
     return {
         "handlers": sorted(
             f"{name} {function.__name__}"
@@ -54,8 +57,8 @@ def traces():
         ),
         "operators": sorted(dir(bpy.ops.skyprobe)),
         "threads": sorted(thread.name for thread in threading.enumerate() if "skyprobe" in thread.name.lower()),
-        "timers": [bpy.app.timers.is_registered(part("live")._poll)],
-        "draw_handlers": len(part("viewport_drawing")._handles),
+        "timers": [live is not None and bpy.app.timers.is_registered(live._poll)],
+        "draw_handlers": len(drawing._handles) if drawing else 0,
         "worlds": [world.name for world in bpy.data.worlds if "skyprobe" in world.name.lower()],
         "images": [image.name for image in bpy.data.images if "skyprobe" in image.name.lower() or "sky_" in image.name],
         "lamps": [lamp.name for lamp in bpy.data.objects if "skyprobe" in lamp.name.lower()],

@@ -230,11 +230,11 @@ def window_closed_in_mid_render():
 
 
 def blender_renders_meanwhile():
-    """Blender renders a picture while previews arrive and a probe is ready: both wait for its end, and Esc is for Blender."""
+    """Blender renders a picture while previews arrive and a probe is ready: both wait for its end, and Esc does not take the probe away."""
     bpy.context.preferences.view.render_display_type = "NONE"
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
-    scene.cycles.samples, scene.cycles.time_limit, scene.cycles.use_denoising = 10_000_000, 60.0, False
+    scene.cycles.samples, scene.cycles.time_limit, scene.cycles.use_denoising = 10_000_000, 12.0, False
     scene.cycles.use_adaptive_sampling = False
     scene.render.resolution_x = scene.render.resolution_y = 64
     if scene.camera is None:

@@ -39,12 +39,16 @@ def test_misuse_is_told_in_a_line_and_breaks_nothing(host, theme, disks, tmp_pat
     rows = host.run("misuse_steps.run", theme=theme, disks=disks)
     for row in rows:
         print(f"{row['seconds']:.2f} s  {row['name']}: {row['told'][:150]}")
-    wrong = [f"{row['name']} ({row['what']})\n  is {', '.join(row['wrong'])}\n  told: {row['told']}\n  not: {row['expected']}\n{row['output']}" for row in rows if row["wrong"]]
+    wrong = [
+        f"{row['name']} ({row['what']})\n  is {', '.join(row['wrong'])}\n  told: {row['told']}\n  not: {row['expected']}\n{row['output']}"
+        for row in rows
+        if row["wrong"]
+    ]
     assert not wrong, "\n\n".join(wrong)
     assert len(rows) >= THEMES[theme]
 
 
 def test_misuse_in_a_window(windowed):
-    answers = windowed.run("misuse_window_steps.run")
+    answers = windowed.run("misuse_window_steps.run", timeout_s=400)
     wrong = {name: answer for name, answer in answers.items() if answer != "fine"}
     assert not wrong and len(answers) >= 8, answers
