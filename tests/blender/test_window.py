@@ -12,7 +12,7 @@ def test_both_panels_are_drawn_without_complaint(windowed, pictures):
 
 
 def test_the_sky_follows_the_time_slider(windowed, pictures):
-    answer = windowed.run("window_steps.drag_time", picture=str(pictures / "live.png"))
+    answer = windowed.run("window_steps.drag_time", screen=(720, 480), picture=str(pictures / "live.png"))
     print(
         f"Blender {answer['version']}: pixels {answer['median_ms']:.1f} ms after a change of time (median of 100), {answer['air_ms']:.0f} ms after "
         f"one of the air; main thread held {answer['held_median_ms']:.2f} ms in the median, {answer['held_ms']:.1f} ms at most"

@@ -47,10 +47,10 @@ def find_blenders():
 
 
 @contextlib.contextmanager
-def virtual_screen(folder):
-    """Yield the name of an X display of SCREEN pixels that nobody else uses; `folder`/Xvfb_screen0 holds its picture."""
+def virtual_screen(folder, size):
+    """Yield the name of an X display of `size` pixels that nobody else uses; `folder`/Xvfb_screen0 holds its picture."""
     reading, writing = os.pipe()
-    options = ["-screen", "0", f"{SCREEN[0]}x{SCREEN[1]}x24", "-fbdir", folder, "-nolisten", "tcp", "-noreset"]
+    options = ["-screen", "0", f"{size[0]}x{size[1]}x24", "-fbdir", folder, "-nolisten", "tcp", "-noreset"]
     server = subprocess.Popen(
         ["Xvfb", "-displayfd", str(writing), *options],
         pass_fds=(writing,),
@@ -69,14 +69,14 @@ def virtual_screen(folder):
         _kill(server)
 
 
-def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arguments):
+def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, screen=SCREEN, **arguments):
     """Let `function` ("module.name" of a script in this folder) run in a window of `blender`; return its answer.
 
     `function` is a generator function, called with the JSON `arguments`; window_child.py tells what it may yield. `wheel` is the
     path of the skyprobe wheel. Whatever Blender complains of on the way is an error unless `complaints_allowed`, with which the
-    answer is the pair (answer, output).
+    answer is the pair (answer, output). Without a graphics card each pixel costs: a step that draws often is given a small `screen`.
     """
-    with tempfile.TemporaryDirectory(dir="/tmp") as folder, virtual_screen(folder) as display:
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder, virtual_screen(folder, screen) as display:
         folder = Path(folder)
         _lay_out(folder, wheel)
         question, answer, log = folder / "question.json", folder / "answer.json", folder / "output.txt"
@@ -93,7 +93,7 @@ def run(blender, function, wheel, timeout_s=180, complaints_allowed=False, **arg
             "PYTHONDONTWRITEBYTECODE": "1",
             "PYTHONUNBUFFERED": "1",
         }
-        options = ["--factory-startup", "-noaudio", "--enable-event-simulate", "--window-geometry", "0", "0", *map(str, SCREEN), "--python-exit-code", "3"]
+        options = ["--factory-startup", "-noaudio", "--enable-event-simulate", "--window-geometry", "0", "0", *map(str, screen), "--python-exit-code", "3"]
         paths = [HERE / "window_child.py", "--", folder / "site", question, answer]
         with log.open("w", encoding="utf-8") as output:
             process = subprocess.Popen(

@@ -5,7 +5,8 @@ operators, and draws:
 
     yield              after the next drawing
     yield 0.5          after so many seconds
-    yield condition    as soon as the callable `condition` returns true; RuntimeError after PATIENCE_S seconds
+    yield condition    as soon as the callable `condition` returns true; RuntimeError after PATIENCE_S seconds. Only this draws nothing by itself:
+                       in software a window takes a while to draw, which would pass for the time that is waited for
 
 What it returns is the answer.
 """
@@ -22,8 +23,8 @@ import bpy
 
 HERE = Path(__file__).resolve().parent
 PATIENCE_S = 60.0
-# Between two looks at whether the steps can go on: short, but time for the event loop.
-PERIOD_S = 0.02
+# Between two looks at whether the steps can go on: short, but time for the event loop; shorter where a wait may be measured.
+PERIOD_S, CONDITION_PERIOD_S = 0.02, 0.002
 
 if "--" in sys.argv:  # this is the script that Blender runs, not an import
     SITE, QUESTION, ANSWER = map(Path, sys.argv[sys.argv.index("--") + 1 :][:3])
@@ -38,6 +39,7 @@ class Driver:
         self._steps = None
         self._go_on = lambda: True
         self._give_up = float("inf")
+        self._period = PERIOD_S
 
     def __call__(self):
         try:
@@ -52,15 +54,15 @@ class Driver:
             finish({"answer": end.value})
         except BaseException:
             finish({"error": traceback.format_exc()})
-        return PERIOD_S
+        return self._period
 
     def _wait_for(self, what):
         now = time.monotonic()
         self._give_up = now + PATIENCE_S
         if callable(what):
-            self._go_on = what
-        else:
-            self._go_on = lambda: time.monotonic() >= now + (what or 0.0)
+            self._go_on, self._period = what, CONDITION_PERIOD_S
+            return
+        self._go_on, self._period = lambda: time.monotonic() >= now + (what or 0.0), PERIOD_S
         for window in bpy.context.window_manager.windows:
             for area in window.screen.areas:
                 area.tag_redraw()

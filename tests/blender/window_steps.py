@@ -145,8 +145,7 @@ def drag_time(picture):
         settings.hour = 6.0 + 0.12 * step
         wanted = settings.hour
         start = time.perf_counter()
-        while not _has_arrived(live, scene):
-            yield 0.0
+        yield lambda: _has_arrived(live, scene)
         waits.append(time.perf_counter() - start)
         environment = scene.world.node_tree.nodes["Skyprobe Environment"]
         images.add(environment.image.name)
@@ -156,8 +155,7 @@ def drag_time(picture):
         settings.hour = 12.0 + 0.5 * step
         rush.append(settings.hour)
     start = time.perf_counter()
-    while not _has_arrived(live, scene):
-        yield 0.0
+    yield lambda: _has_arrived(live, scene)
     last = live.readout(scene).result.request.time
     # Without a graphics card a rendered view takes seconds to draw: only for the picture.
     area("VIEW_3D").spaces.active.shading.type = "RENDERED"
@@ -168,8 +166,7 @@ def drag_time(picture):
     live._poll = poll
     settings.preset = "hazy"
     start = time.perf_counter()
-    while not _has_arrived(live, scene):
-        yield 0.0
+    yield lambda: _has_arrived(live, scene)
     return {
         "version": bpy.app.version_string,
         "median_ms": 1e3 * statistics.median(waits),
