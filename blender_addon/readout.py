@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the panel tells of the sky, as text."""
 
+import datetime
 import functools
 import textwrap
 
@@ -41,8 +42,8 @@ def where(lamp):
 
 
 def clock(moment):
-    """Return the time of day of a datetime, a dash for None."""
-    return f"{moment:%H:%M}" if moment is not None else DASH
+    """Return the time of day of a datetime to the nearest minute, as almanacs give it, a dash for None."""
+    return f"{moment + datetime.timedelta(seconds=30):%H:%M}" if moment is not None else DASH
 
 
 def amount(value):
