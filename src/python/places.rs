@@ -13,7 +13,7 @@ pub struct Place {
 
 #[pymethods]
 impl Place {
-    /// Its name, as GeoNames writes it.
+    /// Its name, as GeoNames writes it: mostly that of its country's language, in Latin letters.
     #[getter]
     fn name(&self) -> &'static str {
         self.inner.name
@@ -46,13 +46,13 @@ impl Place {
         }
     }
 
-    /// Geodetic latitude, positive north. [degrees]
+    /// Geodetic latitude, positive north, to 0.001. [degrees]
     #[getter]
     fn latitude(&self) -> f64 {
         self.inner.latitude_deg
     }
 
-    /// Longitude, positive east. [degrees]
+    /// Longitude, positive east, to 0.001. [degrees]
     #[getter]
     fn longitude(&self) -> f64 {
         self.inner.longitude_deg
@@ -70,7 +70,7 @@ impl Place {
         self.inner.population
     }
 
-    /// IANA time zone that GeoNames states.
+    /// IANA time zone that GeoNames states; near borders that of :func:`zone_of_place` may differ.
     #[getter]
     fn time_zone(&self) -> &'static str {
         self.inner.time_zone
@@ -207,8 +207,8 @@ impl CivilTime {
         self.inner.daylight_saving
     }
 
-    /// How often clocks show the local time that was given: "once"; "repeated" (clocks are set back: the first is taken); "skipped" (clocks are set forward:
-    /// the time as far after the gap is taken).
+    /// How often clocks show the local time that was given: "once"; "repeated" (clocks are set back: the first is taken); "skipped" (clocks are set
+    /// forward: the time as far after the gap is taken).
     #[getter]
     fn occurrence(&self) -> &'static str {
         match self.inner.occurrence {
@@ -224,7 +224,17 @@ impl CivilTime {
     }
 }
 
-/// Places whose name, or another name, matches `text`, the best first.
+/// Places whose name, or another name, matches `text`: the best first. Up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
+///
+/// Case, accents and hyphens do not count, words may be begun only, and region or country may follow, after a comma or not: "lund", "goteborg",
+/// "los ang", "portland, maine", "lund se". Ordered by how exactly the name is met, then by inhabitants. An empty text finds nothing.
+///
+/// Parameters
+/// ----------
+/// text
+///     What a person has typed so far.
+/// limit
+///     How many places at most.
 #[pyfunction]
 #[pyo3(signature = (text, limit = 10))]
 pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
@@ -233,44 +243,100 @@ pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
 }
 
 /// The place nearest to coordinates.
+///
+/// Parameters
+/// ----------
+/// latitude
+///     Geodetic latitude, -90 to 90. [degrees]
+/// longitude
+///     Longitude, -180 to 180. [degrees]
 #[pyfunction]
 pub fn nearest_place(latitude: f64, longitude: f64) -> PyResult<NearestPlace> {
     Ok(NearestPlace { inner: places::nearest(latitude, longitude)? })
 }
 
-/// The place that `text` means: coordinates in any spelling, or the best match of a name.
+/// The place that `text` means: coordinates in any spelling, or the best match of a name, which the label of the result tells.
+///
+/// Raises :class:`InputError` if it is neither.
+///
+/// Parameters
+/// ----------
+/// text
+///     Such as "Lund, Sweden", "55.71, 13.19" or a link to a map.
 #[pyfunction]
 pub fn locate_place(text: &str) -> PyResult<Location> {
     Ok(Location { inner: places::locate(text)? })
 }
 
-/// Latitude and longitude that `text` says in any of the usual spellings.
+/// Latitude and longitude [degrees] that `text` says in any of the usual spellings.
+///
+/// "55.71, 13.19", "55,71 13,19", "55 42 36 N 13 11 24 E", "55°42'36"N 13°11'24"E", "N55 42.6 E13 11.4", "lat: 55.71, lon: 13.19",
+/// "geo:55.71,13.19", links to Google Maps, OpenStreetMap and others. Raises :class:`InputError` for what cannot be read, or in two ways.
+///
+/// Parameters
+/// ----------
+/// text
+///     The coordinates; latitude first unless letters say otherwise.
 #[pyfunction]
 pub fn parse_coordinates(text: &str) -> PyResult<(f64, f64)> {
     let Coordinates { latitude_deg, longitude_deg } = Coordinates::parse(text)?;
     Ok((latitude_deg, longitude_deg))
 }
 
-/// Coordinates as text.
+/// Coordinates as text, which :func:`parse_coordinates` reads.
+///
+/// Parameters
+/// ----------
+/// latitude
+///     Geodetic latitude, -90 to 90. [degrees]
+/// longitude
+///     Longitude, -180 to 180. [degrees]
+/// style
+///     "decimal" (55.71, 13.19), "minutes" (55°42.600'N 13°11.400'E) or "seconds" (55°42'36"N 13°11'24"E).
 #[pyfunction]
 #[pyo3(signature = (latitude, longitude, style = "decimal"))]
 pub fn format_coordinates(latitude: f64, longitude: f64, style: &str) -> PyResult<String> {
     Ok(Coordinates::new(latitude, longitude)?.format(style.parse::<CoordinateStyle>()?))
 }
 
-/// Rough height of the land above the sea.
+/// Rough height of the land above the sea [m], 0 at sea: means over 18 km, which know neither valleys nor peaks.
+///
+/// Parameters
+/// ----------
+/// latitude
+///     Geodetic latitude, -90 to 90. [degrees]
+/// longitude
+///     Longitude, -180 to 180. [degrees]
 #[pyfunction]
 pub fn elevation_m(latitude: f64, longitude: f64) -> PyResult<f64> {
     Ok(places::elevation_m(latitude, longitude)?)
 }
 
-/// IANA name of the zone that is kept today at coordinates.
+/// IANA name of the time zone that is kept today at coordinates; at sea the nautical one.
+///
+/// Parameters
+/// ----------
+/// latitude
+///     Geodetic latitude, -90 to 90. [degrees]
+/// longitude
+///     Longitude, -180 to 180. [degrees]
 #[pyfunction]
 pub fn zone_of_place(latitude: f64, longitude: f64) -> PyResult<&'static str> {
     Ok(time::zone_of_place(latitude, longitude)?)
 }
 
 /// A time as the clocks of a place show it.
+///
+/// Parameters
+/// ----------
+/// time
+///     Date and time, ISO 8601: without offset it is local time.
+/// latitude
+///     Geodetic latitude, -90 to 90. [degrees]
+/// longitude
+///     Longitude, -180 to 180. [degrees]
+/// zone
+///     IANA time zone instead of that of the place.
 #[pyfunction]
 #[pyo3(signature = (time, latitude, longitude, zone = None))]
 pub fn civil_time(time: &str, latitude: f64, longitude: f64, zone: Option<&str>) -> PyResult<CivilTime> {

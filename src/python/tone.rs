@@ -106,6 +106,11 @@ impl ToneReport {
 }
 
 /// An eye that takes time, for sequences of pictures without flicker. It follows the logarithm of luminance through two equal stages.
+///
+/// Parameters
+/// ----------
+/// light_s, dark_s
+///     Time constants of adaptation to light and to darkness, 0.001 to 1e5. [s]
 #[pyclass(frozen, module = "skyprobe.post")]
 pub struct Adaptation {
     inner: Mutex<tone::Adaptation>,
@@ -162,7 +167,34 @@ enum Shown {
     Light(Vec<f32>),
 }
 
-/// Bring a picture to a screen; see ``skyprobe.post.tone_map``.
+/// Bring a picture to a screen: returns the new picture, shape (H, W, 3), and what was done.
+///
+/// Parameters
+/// ----------
+/// pixels
+///     Linear values, shape (H, W, 3), row 0 at the top. Values that are no light (not a number, infinite) are repaired.
+/// operator
+///     "sky" (made for skies by day and night), "filmic" (in the manner of AgX), "aces" (fitted), "exposure" (1 - exp(-light)), "reinhard", "reinhard_local",
+///     "ashikhmin", "logarithmic" or "linear".
+/// exposure_stops
+///     Exposure relative to the automatic one, -20 to 20. [stops]
+/// ev100
+///     Exposure by hand: exposure value at ISO 100, -24 to 36; white is 1.2 * 2**ev100 cd m-2.
+/// aperture, shutter_s, iso
+///     Exposure as of a camera: f-number, 0.5 to 128; shutter time, 1e-6 to 1e5 [s]; sensitivity, 1 to 1e7.
+/// adaptation
+///     Luminance that the eye ("sky") or the meter is adapted to, 1e-8 to 1e9; that of the picture by default. [cd m-2]
+/// display
+///     What shows the picture.
+/// bits
+///     8 (uint8, dithered; the default), 16 (uint16), or None for the light of the screen, float32 from 0 to 1.
+/// projection, field_of_view_deg, rows, white_luminance, color_space
+///     As for ``glare``.
+/// progress
+///     ``progress(stage, fraction)``; returning False raises ``Cancelled``.
+/// **numbers
+///     Numbers of the operator. sky: key, darkening, rods, blue_shift, acuity_loss, colour_contrast, shoulder; filmic: contrast, inset, power; reinhard: white; reinhard_local:
+///     sharpening, threshold, scales; ashikhmin: threshold, largest_scale, stretch; logarithmic: white, middle; linear: white.
 #[pyfunction]
 #[pyo3(signature = (pixels, operator = "sky", *, exposure_stops = 0.0, ev100 = None, aperture = None, shutter_s = None, iso = 100.0, adaptation = None,
     display = "srgb", bits = Some(8), projection = "perspective", field_of_view_deg = None, rows = "centre", white_luminance = 683.0,
