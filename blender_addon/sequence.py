@@ -149,6 +149,9 @@ class SKYPROBE_OT_leave_sequence(Telling, bpy.types.Operator):
 
     def run(self, context):
         settings = context.scene.skyprobe
+        if settings.auto_exposure:
+            # The keys are the sequence's; the live preview sets the value itself.
+            compat.remove_curve(context.scene, "view_settings.exposure")
         live.update_now(context.scene, final=False, anew=True)
         for lamp in (settings.sun_lamp, settings.moon_lamp):
             if lamp is not None:
