@@ -7,8 +7,9 @@ pixels. A picture exposed for it shows 0.18, so the exposure is -log2(E / (683 p
 
 import math
 
-from . import jobs
+from . import compat, jobs
 
+DATA_PATH = "view_settings.exposure"
 # Below this the sky is as good as black [lx].
 DARKEST_LX = 1e-6
 
@@ -36,3 +37,22 @@ def follow(scene, horizontal_lx):
     """The same if the user wants the exposure to follow the sky."""
     if scene.skyprobe.auto_exposure:
         expose(scene, horizontal_lx)
+
+
+def may_key(scene):
+    """Whether the exposure of `scene` has no keyframes or driver but ours."""
+    return scene.skyprobe.exposure_keyed or not compat.is_animated(scene, DATA_PATH)
+
+
+def insert_key(scene, frame, horizontal_lx):
+    """Keyframe the exposure of `scene` for the light on its ground at `frame`."""
+    expose(scene, horizontal_lx)
+    scene.keyframe_insert(DATA_PATH, frame=frame)
+    scene.skyprobe.exposure_keyed = True
+
+
+def remove_keys(scene):
+    """Take away the keyframes of `insert_key`; a user's own stay."""
+    if scene.skyprobe.exposure_keyed:
+        compat.remove_curve(scene, DATA_PATH)
+        scene.skyprobe.exposure_keyed = False

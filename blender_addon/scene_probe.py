@@ -5,7 +5,7 @@ import json
 
 import bpy
 
-from . import compat, jobs, lamps, world_nodes
+from . import compat, exposure, jobs, lamps, world_nodes
 
 PREVIEW_NAME = "Skyprobe Preview"
 
@@ -69,6 +69,7 @@ def show_sequence(scene, image, frames, result):
 def remove(scene):
     """Give `scene` the world that it had before, and delete lamps, world and images of the probe."""
     settings = scene.skyprobe
+    exposure.remove_keys(scene)
     if scene.world is not None and scene.world == settings.probe_world:
         scene.world = settings.previous_world
     settings.previous_world = None
@@ -132,6 +133,8 @@ def turn_north(scene):
 
 def _show(scene, image, result, what):
     settings = scene.skyprobe
+    if settings.shown == "SEQUENCE" and what != "SEQUENCE":
+        _stop_sequence(scene)
     if scene.world is None or scene.world != settings.probe_world:
         _forget_world(settings)
         settings.previous_world = scene.world
@@ -161,6 +164,15 @@ def _show(scene, image, result, what):
     settings.moon_azimuth_deg = result.moon.azimuth_deg if result.moon else 0.0
     settings.shown = what
     _shown_keys[compat.key_of(scene)] = result.request.key
+
+
+def _stop_sequence(scene):
+    """Take away the keys that the sequence gave lamps and exposure."""
+    exposure.remove_keys(scene)
+    for lamp in (scene.skyprobe.sun_lamp, scene.skyprobe.moon_lamp):
+        if lamp is not None:
+            lamp.animation_data_clear()
+            lamp.data.animation_data_clear()
 
 
 def _own(scene):

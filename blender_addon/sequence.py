@@ -101,6 +101,7 @@ def animate(scene, results):
     """Keyframe lamps and, if it follows the sky, exposure of `scene` by `results` (jobs.SkyResult by frame)."""
     settings = scene.skyprobe
     turns = {}
+    expose = settings.auto_exposure and exposure.may_key(scene)
     for frame, result in sorted(results.items()):
         for name, lamp_of in (("sun_lamp", result.sun), ("moon_lamp", result.moon)):
             lamp = getattr(settings, name)
@@ -113,9 +114,8 @@ def animate(scene, results):
             lamp.keyframe_insert("rotation_euler", frame=frame)
             for path in ("energy", "color", "angle"):
                 lamp.data.keyframe_insert(path, frame=frame)
-        if settings.auto_exposure:
-            exposure.expose(scene, result.horizontal_lx)
-            scene.keyframe_insert("view_settings.exposure", frame=frame)
+        if expose:
+            exposure.insert_key(scene, frame, result.horizontal_lx)
     for lamp in (settings.sun_lamp, settings.moon_lamp):
         if lamp is not None:
             compat.make_linear(lamp, lamp.data)
@@ -148,15 +148,7 @@ class SKYPROBE_OT_leave_sequence(Telling, bpy.types.Operator):
         return operators.free(cls, context) and context.scene.skyprobe.shown == "SEQUENCE"
 
     def run(self, context):
-        settings = context.scene.skyprobe
-        if settings.auto_exposure:
-            # The keys are the sequence's; the live preview sets the value itself.
-            compat.remove_curve(context.scene, "view_settings.exposure")
         live.update_now(context.scene, final=False, anew=True)
-        for lamp in (settings.sun_lamp, settings.moon_lamp):
-            if lamp is not None:
-                lamp.animation_data_clear()
-                lamp.data.animation_data_clear()
         return {"FINISHED"}
 
 

@@ -187,3 +187,5 @@ class Made:
     image_key: StringProperty()
     # The rest of its jobs.SkyResult, as JSON.
     image_result: StringProperty()
+    # Whether the exposure of the scene has keyframes of the sequence.
+    exposure_keyed: BoolProperty()

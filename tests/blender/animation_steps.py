@@ -88,6 +88,28 @@ def handler_against_sequence(folder):
     }
 
 
+def exposure_keys(folder, own_keys):
+    """Render a sequence with the exposure following the sky, in a scene with or without own keyframes of it; tell the frames of the keys as it plays, after it was left, and after it was removed."""
+    scene = sunset_scene(folder, frames=2)
+    scene.skyprobe.auto_exposure = True
+    if own_keys:
+        scene.keyframe_insert("view_settings.exposure", frame=3)
+    compat = part("compat")
+
+    def keys():
+        return [
+            point.co.x for curve in compat.curves(scene) if curve.data_path == "view_settings.exposure" for point in curve.keyframe_points
+        ]
+
+    bpy.ops.skyprobe.render_sequence()
+    playing = keys()
+    bpy.ops.skyprobe.leave_sequence()
+    left = keys()
+    bpy.ops.skyprobe.render_sequence()
+    bpy.ops.skyprobe.remove()
+    return {"playing": playing, "left": left, "removed": keys()}
+
+
 def rendered_in_turn(folder):
     """Render an animation with persistent data: Cycles must not keep the sky of the frame before. Tell the mean of each picture."""
     scene = sunset_scene(folder, frames=4)

@@ -150,11 +150,9 @@ def drag_time(picture):
         environment = scene.world.node_tree.nodes["Skyprobe Environment"]
         images.add(environment.image.name)
         suns.append([wanted, settings.sun_lamp.rotation_euler.z, mean_of(environment.image)])
-    rush = []
+    # Many changes at once: the last one is what the world shows in the end.
     for step in range(10):
         settings.hour = 12.0 + 0.5 * step
-        rush.append(settings.hour)
-    start = time.perf_counter()
     yield lambda: _has_arrived(live, scene)
     last = live.readout(scene).result.request.time
     # Without a graphics card a rendered view takes seconds to draw: only for the picture.
