@@ -5,6 +5,7 @@
 //! the square of the step times the bend.
 
 use crate::error::{Error, Result};
+use multiversion::multiversion;
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -154,27 +155,8 @@ impl PhaseTable {
         let lanes = wavelengths.len();
         let mut moments = vec![0.0; count * lanes];
         let mut weighted = vec![0.0; lanes * BLOCK];
-        let (mut cosines, mut before, mut now) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        let mut cosines = [0.0; BLOCK];
         let mut filled = 0;
-        let mut flush = |cosines: &[f64; BLOCK], weighted: &[f64]| {
-            (before, now) = ([0.0; BLOCK], [1.0; BLOCK]);
-            for (l, row) in moments.chunks_exact_mut(lanes).enumerate() {
-                for (moment, weighted) in row.iter_mut().zip(weighted.chunks_exact(BLOCK)) {
-                    // Eight sums at a time, which the compiler can keep in vector registers.
-                    let mut sums = [0.0; 8];
-                    for (p, w) in now.chunks_exact(8).zip(weighted.chunks_exact(8)) {
-                        for k in 0..8 {
-                            sums[k] += p[k] * w[k];
-                        }
-                    }
-                    *moment += sums.iter().sum::<f64>();
-                }
-                let (up, down) = ((2 * l + 1) as f64 / (l + 1) as f64, l as f64 / (l + 1) as f64);
-                for i in 0..BLOCK {
-                    (before[i], now[i]) = (now[i], up * cosines[i] * now[i] - down * before[i]);
-                }
-            }
-        };
         let angles = self.angles.len();
         for interval in 0..angles - 1 {
             let (low, width) = (self.angles[interval], self.angles[interval + 1] - self.angles[interval]);
@@ -195,14 +177,14 @@ impl PhaseTable {
                     }
                     filled += 1;
                     if filled == BLOCK {
-                        flush(&cosines, &weighted);
+                        add_moments(&mut moments, &cosines, &weighted);
                         filled = 0;
                     }
                 }
             }
         }
         (0..lanes).for_each(|lane| weighted[lane * BLOCK + filled..(lane + 1) * BLOCK].fill(0.0));
-        flush(&cosines, &weighted);
+        add_moments(&mut moments, &cosines, &weighted);
         for lane in 0..lanes {
             let whole = moments[lane];
             moments.iter_mut().skip(lane).step_by(lanes).for_each(|moment| *moment /= whole);
@@ -213,6 +195,28 @@ impl PhaseTable {
 
 /// Quadrature nodes that are worked on together.
 const BLOCK: usize = 64;
+
+/// Adds what the nodes at `cosines` with `weighted` values, shape (wavelengths, nodes), give to `moments`, shape (orders, wavelengths).
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
+fn add_moments(moments: &mut [f64], cosines: &[f64; BLOCK], weighted: &[f64]) {
+    let (mut before, mut now) = ([0.0; BLOCK], [1.0; BLOCK]);
+    for (l, row) in moments.chunks_exact_mut(weighted.len() / BLOCK).enumerate() {
+        for (moment, weighted) in row.iter_mut().zip(weighted.chunks_exact(BLOCK)) {
+            // Eight sums at a time, which the compiler can keep in vector registers.
+            let mut sums = [0.0; 8];
+            for (p, w) in now.chunks_exact(8).zip(weighted.chunks_exact(8)) {
+                for k in 0..8 {
+                    sums[k] += p[k] * w[k];
+                }
+            }
+            *moment += sums.iter().sum::<f64>();
+        }
+        let (up, down) = ((2 * l + 1) as f64 / (l + 1) as f64, l as f64 / (l + 1) as f64);
+        for i in 0..BLOCK {
+            (before[i], now[i]) = (now[i], up * cosines[i] * now[i] - down * before[i]);
+        }
+    }
+}
 
 /// Gauss's rule with two nodes on the unit interval: node, weight.
 const GAUSS_2: [(f64, f64); 2] = [(0.211_324_865_405_187_1, 0.5), (0.788_675_134_594_812_9, 0.5)];

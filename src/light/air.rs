@@ -61,7 +61,7 @@ impl<const N: usize> Air<N> {
     fn build(profile: &OpticalProfile, first: usize, max_order: Option<usize>, polarised: bool) -> Self {
         let count = profile.wavelengths_nm.len();
         let index = |lane: usize| (first + lane).min(count - 1);
-        let row = |values: &[f64], z: usize| -> Lanes<N> { std::array::from_fn(|lane| values[z * count + index(lane)] as f32) };
+        let row = |values: &[f64], z: usize| -> Lanes<N> { Lanes::from_fn(|lane| values[z * count + index(lane)] as f32) };
         let levels = profile.altitudes_km.len();
         let mut extinction = vec![splat(0.0); levels];
         let mut scatterers = Vec::new();
@@ -74,7 +74,7 @@ impl<const N: usize> Air<N> {
             let (Some(phase), Some(order)) = (&component.phase, max_order) else { continue };
             let by_lane: Vec<Vec<f64>> =
                 (0..N).into_par_iter().map(|lane| phase.legendre_moments(order + 2, index(lane))).collect();
-            let forward: Lanes<N> = std::array::from_fn(|lane| forward_share(&by_lane[lane], order) as f32);
+            let forward: Lanes<N> = Lanes::from_fn(|lane| forward_share(&by_lane[lane], order) as f32);
             let mut above = vec![splat(0.0); levels];
             for z in (0..levels - 1).rev() {
                 above[z] = above[z + 1];
@@ -89,12 +89,12 @@ impl<const N: usize> Air<N> {
                 }
             }
             let all_moments: Vec<Lanes<N>> = (0..=order)
-                .map(|l| std::array::from_fn(|lane| ((by_lane[lane][l] as f32) - forward[lane]) / (1.0 - forward[lane])))
+                .map(|l| Lanes::from_fn(|lane| ((by_lane[lane][l] as f32) - forward[lane]) / (1.0 - forward[lane])))
                 .collect();
             let dipole_share: Option<Lanes<N>> = match phase {
-                Phase::Rayleigh { depolarisation } if polarised => Some(std::array::from_fn(|lane| {
-                    dipole_share(depolarisation[index(lane).min(depolarisation.len() - 1)]) as f32
-                })),
+                Phase::Rayleigh { depolarisation } if polarised => {
+                    Some(Lanes::from_fn(|lane| dipole_share(depolarisation[index(lane).min(depolarisation.len() - 1)]) as f32))
+                }
                 _ => None,
             };
             let moments = match &dipole_share {
@@ -111,7 +111,7 @@ impl<const N: usize> Air<N> {
             radius: profile.planet_radius_km,
             top: *profile.altitudes_km.last().expect("validated profile"),
             sun_radius: profile.sun_angular_radius_deg.to_radians(),
-            albedo: std::array::from_fn(|lane| profile.ground_albedo[index(lane)] as f32),
+            albedo: Lanes::from_fn(|lane| profile.ground_albedo[index(lane)] as f32),
             altitudes: Axis::new(profile.altitudes_km.clone()),
             extinction,
             scatterers,

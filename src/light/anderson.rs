@@ -3,7 +3,7 @@
 //! The next iterate is the combination of the last few g(x) whose residuals g(x) - x cancel best in the least-squares sense; each wavelength has
 //! its own coefficients. Residuals are measured relative to the magnitude of their node, so that twilight counts as much as noon.
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, splat};
 use super::source::{Field, mean};
 
 /// How many earlier iterates are combined.
@@ -30,7 +30,7 @@ impl<const N: usize> Anderson<N> {
         let weights = inverse_magnitudes(&result);
         let x = flatten(field);
         let g = flatten(&result);
-        let f: Vec<Lanes<N>> = g.iter().zip(&x).map(|(g, x)| std::array::from_fn(|n| g[n] - x[n])).collect();
+        let f: Vec<Lanes<N>> = g.iter().zip(&x).map(|(g, x)| Lanes::from_fn(|n| g[n] - x[n])).collect();
         let change = relative_size(&f, &weights);
         let mut next = g.clone();
         if accelerate {
@@ -89,7 +89,7 @@ impl<const N: usize> Anderson<N> {
                 }
             }
         }
-        let mut out = vec![[0.0_f32; N]; k];
+        let mut out = vec![splat(0.0); k];
         for n in 0..N {
             let matrix: Vec<f64> = (0..k * k).map(|i| gram[(i / k).max(i % k) * k + (i / k).min(i % k)][n]).collect();
             let solution = solve_symmetric(matrix, (0..k).map(|a| right[a][n]).collect());
@@ -106,7 +106,7 @@ fn flatten<const N: usize>(field: &Field<N>) -> Vec<Lanes<N>> {
 }
 
 fn difference<const N: usize>(a: &[Lanes<N>], b: &[Lanes<N>]) -> Vec<Lanes<N>> {
-    a.iter().zip(b).map(|(a, b)| std::array::from_fn(|n| a[n] - b[n])).collect()
+    a.iter().zip(b).map(|(a, b)| Lanes::from_fn(|n| a[n] - b[n])).collect()
 }
 
 /// One over the magnitude of the node to which each number of the flattened field belongs.
@@ -175,7 +175,7 @@ mod tests {
             y
         };
         let shape = Shape { orders: Orders::new(0, 0), polarised: false };
-        let mut x = Field { shape, values: vec![[0.0; 16]; 10], ground: vec![[1.0; 16]; 2] };
+        let mut x = Field { shape, values: vec![splat(0.0); 10], ground: vec![splat(1.0); 2] };
         let mut anderson = Anderson::new();
         let mut change = 1.0;
         for _ in 0..6 {

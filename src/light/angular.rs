@@ -22,6 +22,7 @@ pub use rows::{BLOCK, FunctionRows, Located};
 use super::air::forward_share;
 use super::axis::Axis;
 use crate::atmosphere::Phase;
+use multiversion::multiversion;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
@@ -180,22 +181,17 @@ impl Table {
         let most = moments.iter().map(Vec::len).max().unwrap_or(0).max(order + 1);
         let legendre = legendre_table(most, &cosines);
         let disc = disc_moments(most, sun_radius);
-        let add_series = |function: &mut [f64], l: usize, value: f64| {
-            for (sum, p) in function.iter_mut().zip(&legendre[l]) {
-                *sum += (2 * l + 1) as f64 * value * p;
-            }
-        };
         let made: Vec<Made> = moments
             .par_iter()
             .enumerate()
             .map(|(w, moments)| {
                 let whole: Vec<f64> = cosines.iter().map(|&cosine| phase.value(w, cosine)).collect();
                 let share = forward_share(moments, order);
+                let (missing, beyond) = (missing(moments.len()), beyond(moments.len()));
                 let mut rest = vec![0.0; ENTRIES];
                 for (l, chi) in moments.iter().enumerate().take(order + 1) {
-                    add_series(&mut rest, l, (chi - share) / (1.0 - share));
+                    add_faded(&mut rest, (2 * l + 1) as f64 * (chi - share) / (1.0 - share), &legendre[l], &beyond, 0.0);
                 }
-                let (missing, beyond) = (missing(moments.len()), beyond(moments.len()));
                 let peak_after = |path: f64| {
                     // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
                     let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
@@ -205,9 +201,7 @@ impl Table {
                         let added = repeated * disc[l] - chi;
                         if added != 0.0 {
                             let (value, missing) = ((2 * l + 1) as f64 * added, missing.get(l).copied().unwrap_or(1.0));
-                            for ((sum, p), beyond) in peak.iter_mut().zip(&legendre[l]).zip(&beyond) {
-                                *sum += value * p * (1.0 - beyond * missing);
-                            }
+                            add_faded(&mut peak, value, &legendre[l], &beyond, missing);
                         }
                     }
                     let factor = (share * path).exp();
@@ -239,6 +233,14 @@ impl Table {
             entries.extend(peak_basis.iter().chain(&rest_basis).map(|function| (function[e] * scale) as f32));
         }
         Self { entries, count, peak, paths: Axis::new(PATHS.to_vec()), peak_weights, growth, rest_weights }
+    }
+}
+
+/// Adds `value` times the Legendre polynomial `p` to `sum`, less the part `missing` of it where `beyond` is 1.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
+fn add_faded(sum: &mut [f64], value: f64, p: &[f64], beyond: &[f64], missing: f64) {
+    for ((sum, p), beyond) in sum.iter_mut().zip(p).zip(beyond) {
+        *sum += value * p * (1.0 - beyond * missing);
     }
 }
 
@@ -309,17 +311,18 @@ fn pick(functions: &[Vec<f64>], growths: &[f64]) -> (Vec<Vec<f64>>, Vec<f64>) {
             let values = rest[k].iter().zip(&functions[k]);
             values.map(|(rest, whole)| rest.abs() / (1.0 / growths[k] + whole.abs())).fold(0.0, f64::max)
         };
-        let Some((worst, error)) = (0..functions.len()).map(|k| (k, error(k))).max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        let errors: Vec<f64> = (0..functions.len()).into_par_iter().map(error).collect();
+        let Some((worst, error)) = errors.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         if error < TOLERANCE {
             break;
         }
         let length = rest[worst].iter().map(|v| v * v).sum::<f64>().sqrt();
         let direction: Vec<f64> = rest[worst].iter().map(|v| v / length).collect();
-        for (f, weights) in rest.iter_mut().zip(&mut weights) {
+        rest.par_iter_mut().zip(&mut weights).for_each(|(f, weights)| {
             let share: f64 = f.iter().zip(&direction).map(|(a, b)| a * b).sum();
             f.iter_mut().zip(&direction).for_each(|(a, b)| *a -= share * b);
             weights.push(share);
-        }
+        });
         basis.push(direction);
     }
     (basis, weights.concat())

@@ -7,7 +7,7 @@
 use super::air::Air;
 use super::grid::Grid;
 use super::harmonics;
-use super::lanes::{Lanes, add_product, exp_one, splat};
+use super::lanes::{Lanes, add_product, exp_one, multiply_add, splat};
 use super::ray::RayPoint;
 use super::source::{FLOOR, MAX_ORDER, Relative, Shape, TENSOR, log_magnitude};
 use super::stokes::DipoleSource;
@@ -26,11 +26,13 @@ const NEGLIGIBLE: f32 = 1e-5;
 const DARK: f32 = -100.0;
 
 /// Work space: for one point of a ray, what remains when altitude, l and components are summed.
-pub struct Contracted<const N: usize> {
+pub struct Contracted<const N: usize, const FUSED: bool> {
     shape: Shape,
     /// (solar zenith angle, term), relative to the magnitude of the solar zenith angle.
     terms: Vec<Lanes<N>>,
     log_magnitudes: Vec<f32>,
+    /// What each moment of the light counts at the point.
+    weighted: Vec<Lanes<N>>,
     /// Highest m at the point.
     azimuthal: usize,
     /// Work space by position of the Sun and azimuth.
@@ -38,7 +40,7 @@ pub struct Contracted<const N: usize> {
     magnitudes: Vec<f32>,
 }
 
-impl<const N: usize> Contracted<N> {
+impl<const N: usize, const FUSED: bool> Contracted<N, FUSED> {
     /// For fields of `shape`.
     pub fn new(grid: &Grid, shape: Shape) -> Self {
         let n = grid.zeniths.len();
@@ -47,6 +49,7 @@ impl<const N: usize> Contracted<N> {
             shape,
             terms: vec![splat(0.0); n * stride],
             log_magnitudes: vec![0.0; n],
+            weighted: vec![splat(0.0); shape.orders.count()],
             azimuthal: 0,
             stencils: Vec::new(),
             magnitudes: Vec::new(),
@@ -85,6 +88,12 @@ impl<const N: usize> Contracted<N> {
         let matters = |l: usize| strength[l].iter().zip(&total).any(|(s, t)| s.abs() > NEGLIGIBLE * t);
         let order = (0..=orders.order).rev().find(|&l| matters(l)).unwrap_or(0);
         self.azimuthal = orders.last(order).max(if polarised { 2.min(orders.azimuthal) } else { 0 });
+        for l in 0..=order {
+            for m in 0..=self.azimuthal.min(l) {
+                let lm = orders.start(l) + m;
+                self.weighted[lm] = strength[l].map(|strength| strength * harmonic[lm]);
+            }
+        }
         let stride = Self::stride(self.shape);
         let zeniths = grid.zeniths.len();
         let cubic = grid.altitudes.cubic(point.altitude);
@@ -103,11 +112,11 @@ impl<const N: usize> Contracted<N> {
                 let mut sum = splat::<N>(0.0);
                 for l in m..=order {
                     let lm = orders.start(l) + m;
-                    let w = cubic.weights.map(|w| w * harmonic[lm]);
+                    let w = cubic.weights;
                     let [a, b, c, d] = nodes.map(|node| &node[lm]);
-                    let strength = &strength[l];
+                    let strength = &self.weighted[lm];
                     for n in 0..N {
-                        sum[n] += strength[n] * ((w[0] * a[n] + w[1] * b[n]) + (w[2] * c[n] + w[3] * d[n]));
+                        sum[n] = multiply_add::<FUSED>(strength[n], combine::<FUSED>(w, [a[n], b[n], c[n], d[n]]), sum[n]);
                     }
                 }
                 terms[m] = sum;
@@ -118,7 +127,7 @@ impl<const N: usize> Contracted<N> {
                 for (t, value) in tensor.iter_mut().enumerate() {
                     let [a, b, c, d] = nodes.map(|node| &node[count - TENSOR + t]);
                     for n in 0..N {
-                        value[n] = dipole[n] * ((w[0] * a[n] + w[1] * b[n]) + (w[2] * c[n] + w[3] * d[n]));
+                        value[n] = dipole[n] * combine::<FUSED>(w, [a[n], b[n], c[n], d[n]]);
                     }
                 }
                 let (i, qu) = terms.split_at_mut(orders.azimuthal + 1);
@@ -158,33 +167,46 @@ impl<const N: usize> Contracted<N> {
             let (mut before, mut now) = (cosine, 1.0_f32);
             let mut i = sum[0];
             for m in 0..=self.azimuthal {
-                add_term(&mut i, weights, now, nodes, stride, m);
+                add_term::<N, FUSED>(&mut i, weights, now, nodes, stride, m);
                 (before, now) = (now, 2.0 * cosine * now - before);
             }
             sum[0] = i;
             if let [_, q_sum, u_sum] = sum {
                 let double = 2.0 * cosine * cosine - 1.0;
                 let mut q = *q_sum;
-                add_term(&mut q, weights, 1.0, nodes, stride, first_polarised);
-                add_term(&mut q, weights, cosine, nodes, stride, first_polarised + 1);
-                add_term(&mut q, weights, double, nodes, stride, first_polarised + 2);
+                add_term::<N, FUSED>(&mut q, weights, 1.0, nodes, stride, first_polarised);
+                add_term::<N, FUSED>(&mut q, weights, cosine, nodes, stride, first_polarised + 1);
+                add_term::<N, FUSED>(&mut q, weights, double, nodes, stride, first_polarised + 2);
                 *q_sum = q;
                 let mut u = *u_sum;
-                add_term(&mut u, weights, sine, nodes, stride, first_polarised + 3);
-                add_term(&mut u, weights, 2.0 * sine * cosine, nodes, stride, first_polarised + 4);
+                add_term::<N, FUSED>(&mut u, weights, sine, nodes, stride, first_polarised + 3);
+                add_term::<N, FUSED>(&mut u, weights, 2.0 * sine * cosine, nodes, stride, first_polarised + 4);
                 *u_sum = u;
             }
         }
     }
 }
 
+/// The sum of four values with these weights.
+#[inline(always)]
+fn combine<const FUSED: bool>(weights: [f32; 4], values: [f32; 4]) -> f32 {
+    let ([w0, w1, w2, w3], [a, b, c, d]) = (weights, values);
+    multiply_add::<FUSED>(w0, a, multiply_add::<FUSED>(w1, b, multiply_add::<FUSED>(w2, c, w3 * d)))
+}
+
 /// Adds `wave` times term `term`, interpolated between four nodes.
 #[inline(always)]
-fn add_term<const N: usize>(sum: &mut Lanes<N>, weights: [f32; 4], wave: f32, nodes: &[Lanes<N>], stride: usize, term: usize) {
-    let [w0, w1, w2, w3] = weights.map(|w| w * wave);
+fn add_term<const N: usize, const FUSED: bool>(
+    sum: &mut Lanes<N>,
+    weights: [f32; 4],
+    wave: f32,
+    nodes: &[Lanes<N>],
+    stride: usize,
+    term: usize,
+) {
     let (a, b, c, d) = (&nodes[term], &nodes[stride + term], &nodes[2 * stride + term], &nodes[3 * stride + term]);
     for n in 0..N {
-        sum[n] += (w0 * a[n] + w1 * b[n]) + (w2 * c[n] + w3 * d[n]);
+        sum[n] = multiply_add::<FUSED>(wave, combine::<FUSED>(weights, [a[n], b[n], c[n], d[n]]), sum[n]);
     }
 }
 
@@ -255,14 +277,14 @@ mod tests {
             }
             if shape.polarised {
                 let dark = splat(0.0);
-                add_tensor(&mut node[orders.count()..], mu, 1.0, &parts.map(|v| [v as f32; N]), &[dark; 3], &[dark; 2]);
+                add_tensor(&mut node[orders.count()..], mu, 1.0, &parts.map(|v| splat(v as f32)), &[dark; 3], &[dark; 2]);
             }
         }
         node
     }
 
     /// I, at several Suns and azimuths, that a ray receives from a field of that light.
-    fn received(polarised: bool) -> Vec<f32> {
+    fn received<const FUSED: bool>(polarised: bool) -> Vec<f32> {
         let profile = molecules();
         let numbers = Quality::Draft.numbers();
         let [grid, _] = Grid::new(&numbers, &profile);
@@ -283,7 +305,7 @@ mod tests {
                 })
                 .collect();
             let mut suns = Suns::new(&on_rays);
-            let mut contracted = Contracted::new(&grid, shape);
+            let mut contracted = Contracted::<N, FUSED>::new(&grid, shape);
             let stokes = if polarised { 3 } else { 1 };
             let mut sums = vec![splat(0.0); on_rays.len() * stokes];
             for point in &ray.points {
@@ -299,8 +321,15 @@ mod tests {
     /// The vector code in light without polarisation, Q = U = 0, scatters what the scalar code does.
     #[test]
     fn unpolarised_light_is_scattered_as_a_scalar() {
-        for (vector, scalar) in received(true).into_iter().zip(received(false)) {
+        for (vector, scalar) in received::<false>(true).into_iter().zip(received::<false>(false)) {
             assert!(scalar > 0.0 && (vector / scalar - 1.0).abs() < 1e-5, "{vector} {scalar}");
+        }
+    }
+
+    #[test]
+    fn processors_that_fuse_find_the_same_light() {
+        for (fused, plain) in received::<true>(true).into_iter().zip(received::<false>(true)) {
+            assert!(plain > 0.0 && (fused / plain - 1.0).abs() < 1e-5, "{fused} {plain}");
         }
     }
 }

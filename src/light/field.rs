@@ -5,7 +5,7 @@ use super::angular::{AngularFunctions, Once};
 use super::contracted::Contracted;
 use super::grid::{FINER, Grid};
 use super::harmonics::Orders;
-use super::lanes::{Lanes, add_scaled, splat};
+use super::lanes::{Lanes, add_scaled, processor_fuses, splat};
 use super::ray::{Ray, StepLimits};
 use super::single::{PARTS, add_strengths_and_paths, direct_ground_irradiance};
 use super::solve::{Block, LANES, solve};
@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::progress::Progress;
 use crate::quality::Numbers;
 use multiversion::multiversion;
+use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -102,26 +103,33 @@ impl LightField {
         profile: &OpticalProfile,
         numbers: &Numbers,
         polarised: bool,
-        make: impl Fn(usize, (Air<LANES>, Option<Sunlight<LANES>>), [&Grid; 2], StepLimits) -> Result<Block>,
+        make: impl Fn(usize, (Air<LANES>, Option<Sunlight<LANES>>), [&Grid; 2], StepLimits) -> Result<Block> + Sync,
     ) -> Result<Self> {
         debug_assert!(numbers.order <= MAX_ORDER);
         let wavelengths = profile.wavelengths_nm.len();
         let limits = StepLimits::new(numbers, profile.planet_radius_km);
         let [grid, iteration_grid] = Grid::new(numbers, profile);
-        let blocks = (0..wavelengths.div_ceil(LANES))
-            .map(|block| {
-                let air = Air::<LANES>::new(profile, block * LANES, numbers.order, polarised);
-                // What molecules scatter is held by the lowest orders; every other component has something beyond its orders.
-                let peaks =
-                    profile.components.iter().any(|c| c.phase.as_ref().is_some_and(|p| !matches!(p, Phase::Rayleigh { .. })));
-                let direct = peaks.then(|| Sunlight::new(&Air::unscaled(profile, block * LANES)));
-                make(block, (air, direct), [&grid, &iteration_grid], limits)
-            })
-            .collect::<Result<Vec<_>>>()?;
-        let phases = profile.components.iter().filter_map(|component| component.phase.as_ref());
-        let functions = phases
-            .map(|phase| AngularFunctions::new(phase, wavelengths, numbers.order, profile.sun_angular_radius_deg.to_radians()))
-            .collect::<Vec<_>>();
+        let blocks = || {
+            (0..wavelengths.div_ceil(LANES))
+                .map(|block| {
+                    let air = Air::<LANES>::new(profile, block * LANES, numbers.order, polarised);
+                    // What molecules scatter is held by the lowest orders; every other component has something beyond its orders.
+                    let peaks =
+                        profile.components.iter().any(|c| c.phase.as_ref().is_some_and(|p| !matches!(p, Phase::Rayleigh { .. })));
+                    let direct = peaks.then(|| Sunlight::new(&Air::unscaled(profile, block * LANES)));
+                    make(block, (air, direct), [&grid, &iteration_grid], limits)
+                })
+                .collect::<Result<Vec<_>>>()
+        };
+        let phases: Vec<&Phase> = profile.components.iter().filter_map(|component| component.phase.as_ref()).collect();
+        let functions = || {
+            let of = |phase: &&Phase| {
+                AngularFunctions::new(phase, wavelengths, numbers.order, profile.sun_angular_radius_deg.to_radians())
+            };
+            phases.par_iter().map(of).collect::<Vec<_>>()
+        };
+        let (blocks, functions) = rayon::join(blocks, functions);
+        let blocks = blocks?;
         Ok(Self { grid, blocks, wavelengths, polarised, functions: Arc::new(functions), limits })
     }
 
@@ -267,7 +275,7 @@ fn gather_block(
         }
     }
     let mut suns = Suns::new(&on_rays);
-    let mut contracted = Contracted::new(grid, field.shape);
+    let mut contracted = Contracted::<LANES, { processor_fuses!() }>::new(grid, field.shape);
     let mut scattered = vec![splat(0.0); azimuths.len() * stokes];
     for point in &ray.points {
         suns.place(grid, r0, point.distance, point.radius);

@@ -9,6 +9,7 @@ use super::axis::Axis;
 use super::lanes::{Lanes, add_scaled, exp_minus, splat};
 use crate::quality::Numbers;
 use crate::units::EARTH_RADIUS_KM;
+use multiversion::multiversion;
 
 /// How finely rays are cut.
 #[derive(Clone, Copy, Debug)]
@@ -68,25 +69,11 @@ const DARK: f32 = 1e-6;
 impl<const N: usize> Ray<N> {
     /// Follows the ray from `start_altitude` [km] with zenith cosine `mu` to the ground or the top. `shells` are altitudes at which steps end.
     pub fn trace(air: &Air<N>, shells: &Axis, start_altitude: f64, mu: f64, limits: StepLimits) -> Self {
-        let mut ray = Self { start_altitude, zenith_cosine: mu, points: Vec::new(), ground: None };
-        let r0 = air.radius + start_altitude;
-        let (ends, meets_ground) = step_ends(air, shells, start_altitude, mu);
-        let mut tau = splat::<N>(0.0);
-        let mut begin = ends[0];
-        for &end in &ends[1..] {
-            if !ray.march(air, r0, begin, end, &mut tau, limits) {
-                return ray;
-            }
-            begin = end;
-        }
-        if meets_ground {
-            let transmittance = exp_minus(&tau);
-            ray.ground = Some((begin, transmittance));
-        }
-        ray
+        trace(air, shells, start_altitude, mu, limits)
     }
 
     /// Optical depth of the whole ray, to the ground or to space.
+    #[inline(always)]
     pub fn optical_depth(air: &Air<N>, shells: &Axis, start_altitude: f64, mu: f64, limits: StepLimits) -> Lanes<N> {
         let r0 = air.radius + start_altitude;
         let (ends, _) = step_ends(air, shells, start_altitude, mu);
@@ -114,6 +101,7 @@ impl<const N: usize> Ray<N> {
     }
 
     /// Adds the points between two distances; false when nothing is left to see.
+    #[inline(always)]
     fn march(&mut self, air: &Air<N>, r0: f64, begin: f64, end: f64, tau: &mut Lanes<N>, limits: StepLimits) -> bool {
         let mu = self.zenith_cosine;
         let radius_at = |t: f64| (r0 * r0 + 2.0 * r0 * mu * t + t * t).sqrt();
@@ -145,7 +133,7 @@ impl<const N: usize> Ray<N> {
                     depth[n] += h * x * (at_start + 0.5 * slope * x);
                 }
                 let mut weight = exp_minus(&depth);
-                for w in &mut weight {
+                for w in weight.iter_mut() {
                     *w *= 0.5 * h;
                 }
                 let t = t0 + GAUSS[a] * step;
@@ -169,6 +157,25 @@ impl<const N: usize> Ray<N> {
         }
         true
     }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
+fn trace<const N: usize>(air: &Air<N>, shells: &Axis, start_altitude: f64, mu: f64, limits: StepLimits) -> Ray<N> {
+    let mut ray = Ray { start_altitude, zenith_cosine: mu, points: Vec::new(), ground: None };
+    let r0 = air.radius + start_altitude;
+    let (ends, meets_ground) = step_ends(air, shells, start_altitude, mu);
+    let mut tau = splat::<N>(0.0);
+    let mut begin = ends[0];
+    for &end in &ends[1..] {
+        if !ray.march(air, r0, begin, end, &mut tau, limits) {
+            return ray;
+        }
+        begin = end;
+    }
+    if meets_ground {
+        ray.ground = Some((begin, exp_minus(&tau)));
+    }
+    ray
 }
 
 /// Distances at which the ray enters the air, crosses shells, and leaves, and whether it ends on the ground.

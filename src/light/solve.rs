@@ -10,7 +10,7 @@ use super::anderson::Anderson;
 use super::contracted::Contracted;
 use super::grid::{Azimuth, Grid, azimuth_interpolation, azimuths};
 use super::harmonics::{self, Orders};
-use super::lanes::{Lanes, add_product, add_scaled, splat};
+use super::lanes::{Lanes, add_product, add_scaled, processor_fuses, splat};
 use super::ray::{Ray, StepLimits};
 use super::single::{add_strengths, direct_ground_irradiance};
 use super::source::{Field, MAX_ORDER, Relative, Shape};
@@ -308,7 +308,7 @@ fn scattered_radiance(
         .flat_map(|&sun| azimuths.iter().map(move |a| SunOnRay::new(r0, ray.zenith_cosine, (a.cosine, a.sine), sun)))
         .collect();
     let mut suns = Suns::new(&on_rays);
-    let mut contracted = Contracted::new(grid, source.shape);
+    let mut contracted = Contracted::<LANES, { processor_fuses!() }>::new(grid, source.shape);
     for point in &ray.points {
         contracted.fill(grid, source, air, point, 0..grid.zeniths.len());
         suns.place(grid, r0, point.distance, point.radius);

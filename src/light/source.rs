@@ -118,7 +118,12 @@ impl<const N: usize> Relative<N> {
 
     /// All its numbers.
     pub fn to_sections(&self) -> [Vec<f32>; 4] {
-        [self.values.concat(), self.log_magnitudes.clone(), self.ground.concat(), self.ground_log_magnitudes.clone()]
+        [
+            Lanes::concat(&self.values),
+            self.log_magnitudes.clone(),
+            Lanes::concat(&self.ground),
+            self.ground_log_magnitudes.clone(),
+        ]
     }
 
     /// The field on `grid` of which [`Self::to_sections`] gave `sections`; `None` if they are not as many or as long as that.
@@ -130,9 +135,9 @@ impl<const N: usize> Relative<N> {
         let fits = sections.iter().zip(lengths).all(|(section, length)| section.len() == length);
         fits.then(|| Self {
             shape,
-            values: values.as_chunks::<N>().0.to_vec(),
+            values: Lanes::split(values),
             log_magnitudes: log_magnitudes.clone(),
-            ground: ground.as_chunks::<N>().0.to_vec(),
+            ground: Lanes::split(ground),
             ground_log_magnitudes: ground_log_magnitudes.clone(),
         })
     }
@@ -159,5 +164,7 @@ pub fn log_magnitude(stencil: &Stencil, nodes: &[f32]) -> f32 {
     let w = &stencil.weights;
     let log = (w[0] * logs[0] + w[1] * logs[1]) + (w[2] * logs[2] + w[3] * logs[3]);
     let (one, other) = (logs[stencil.inner], logs[stencil.inner + 1]);
-    log.min(one.max(other) + 0.2).max(one.min(other) - 0.2)
+    let (low, high) = if one < other { (one - 0.2, other + 0.2) } else { (other - 0.2, one + 0.2) };
+    let log = if log < high { log } else { high };
+    if log > low { log } else { low }
 }

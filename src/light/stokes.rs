@@ -89,6 +89,7 @@ pub fn add_tensor<const N: usize>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::lanes::splat;
     use super::*;
     use glam::{DMat3, DVec3};
 
@@ -134,7 +135,7 @@ mod tests {
                         + outer(phi, phi) * (0.5 * (i - q))
                         + (outer(theta, phi) + outer(phi, theta)) * (0.5 * u));
             }
-            let lanes = |v: f64| [v as f32; 16];
+            let lanes = |v: f64| splat::<16>(v as f32);
             let waves = |v: f64| [lanes(v), lanes(v * p.cos()), lanes(v * (2.0 * p).cos())];
             let mut tensor = [lanes(0.0); 4];
             let sines = [lanes(u * p.sin()), lanes(u * (2.0 * p).sin())];

@@ -7,9 +7,10 @@
 use super::air::Air;
 use super::axis::Axis;
 use super::gauss;
-use super::lanes::{Lanes, add_scaled, exp, exp_minus, exp_one, splat};
+use super::lanes::{Lanes, add_scaled, exp_minus, exp_one, splat};
 use super::ray::{Ray, StepLimits};
 use crate::units::EARTH_RADIUS_KM;
+use multiversion::multiversion;
 use rayon::prelude::*;
 
 /// Altitude levels of the table.
@@ -25,8 +26,8 @@ const DISC_HEIGHTS: usize = 64;
 /// Table of the optical depth towards space for one block of wavelengths.
 pub struct Sunlight<const N: usize> {
     altitudes: Axis,
-    /// ln of the optical depth, (altitude, cosine).
-    log_depth: Vec<Lanes<N>>,
+    /// Fourth root of the optical depth, (altitude, cosine): linear between the entries within 1e-4 where light is lost, and without an exponential to undo.
+    root_depth: Vec<Lanes<N>>,
     /// ln of the mean transmittance over the disc, divided by the cube of the place in the table with which it vanishes, (altitude, height).
     log_disc: Vec<Lanes<N>>,
     radius: f64,
@@ -53,38 +54,13 @@ impl<const N: usize> Sunlight<N> {
         shells.dedup_by(|b, a| *b - *a < 1e-6);
         let shells = Axis::new(shells);
         let limits = StepLimits { length_km: 25.0 * air.radius / EARTH_RADIUS_KM, optical_depth: f32::INFINITY };
-        let log_depth = altitudes
-            .nodes()
-            .par_iter()
-            .flat_map_iter(|&z| {
-                let shells = &shells;
-                (0..COSINES).map(move |c| {
-                    let mu = (c as f64 / (COSINES - 1) as f64).powi(2);
-                    let depth = Ray::optical_depth(air, shells, z, mu, limits);
-                    depth.map(|d| d.max(1e-12).ln())
-                })
-            })
-            .collect();
-        Self { altitudes, log_depth, log_disc: Vec::new(), radius: air.radius, top, sun_radius: air.sun_radius }
+        let root_depth = altitudes.nodes().par_iter().flat_map_iter(|&z| root_depths(air, &shells, z, limits)).collect();
+        Self { altitudes, root_depth, log_disc: Vec::new(), radius: air.radius, top, sun_radius: air.sun_radius }
     }
 
     fn tabulate_disc(&mut self) {
         let strips = gauss::legendre(8);
-        let table = self
-            .altitudes
-            .nodes()
-            .par_iter()
-            .flat_map_iter(|&z| {
-                let (this, strips) = (&*self, &strips);
-                (0..DISC_HEIGHTS).map(move |i| {
-                    let place = (i as f64 / (DISC_HEIGHTS - 1) as f64).max(1e-3);
-                    let above = this.sun_radius * (DISC_REACH * place * place - 1.0);
-                    let mean = this.over_strips(z, this.horizon(z).acos() - above, above, strips);
-                    mean.map(|m| (m.max(1e-30) / place.powi(3) as f32).ln())
-                })
-            })
-            .collect();
-        self.log_disc = table;
+        self.log_disc = self.altitudes.nodes().par_iter().flat_map_iter(|&z| log_discs(self, z, &strips)).collect();
     }
 
     /// Cosine of the zenith angle of the horizon seen from altitude `z` [km].
@@ -103,16 +79,16 @@ impl<const N: usize> Sunlight<N> {
         let across = (position - column as f64) as f32;
         let base = level * COSINES + column;
         let corners = [
-            (&self.log_depth[base], (1.0 - up) * (1.0 - across)),
-            (&self.log_depth[base + 1], (1.0 - up) * across),
-            (&self.log_depth[base + COSINES], up * (1.0 - across)),
-            (&self.log_depth[base + COSINES + 1], up * across),
+            (&self.root_depth[base], (1.0 - up) * (1.0 - across)),
+            (&self.root_depth[base + 1], (1.0 - up) * across),
+            (&self.root_depth[base + COSINES], up * (1.0 - across)),
+            (&self.root_depth[base + COSINES + 1], up * across),
         ];
-        let mut log = splat(0.0);
+        let mut root = splat(0.0);
         for (value, weight) in corners {
-            add_scaled(&mut log, weight, value);
+            add_scaled(&mut root, weight, value);
         }
-        exp(&log)
+        root.map(fourth_power)
     }
 
     /// Transmittance from altitude `z` [km] to space towards zenith cosine `mu`; `None` if the ground is in the way.
@@ -156,6 +132,7 @@ impl<const N: usize> Sunlight<N> {
     }
 
     /// The mean over the disc whose centre stands at `zenith` [radians], `above` the horizon [radians].
+    #[inline(always)]
     fn over_strips(&self, z: f64, zenith: f64, above: f64, strips: &[(f64, f64)]) -> Lanes<N> {
         // Height over the centre = radius sin t; a strip's share of the disc is cos^2 t dt / (pi / 2).
         let lowest = if above < self.sun_radius { (-above / self.sun_radius).asin() } else { -std::f64::consts::FRAC_PI_2 };
@@ -171,6 +148,28 @@ impl<const N: usize> Sunlight<N> {
         }
         mean
     }
+}
+
+/// One row of the table of optical depths.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
+fn root_depths<const N: usize>(air: &Air<N>, shells: &Axis, z: f64, limits: StepLimits) -> Vec<Lanes<N>> {
+    let of = |c: usize| {
+        let mu = (c as f64 / (COSINES - 1) as f64).powi(2);
+        Ray::optical_depth(air, shells, z, mu, limits).map(|depth| depth.sqrt().sqrt())
+    };
+    (0..COSINES).map(of).collect()
+}
+
+/// One row of the table of means over the disc.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
+fn log_discs<const N: usize>(sunlight: &Sunlight<N>, z: f64, strips: &[(f64, f64)]) -> Vec<Lanes<N>> {
+    let of = |i: usize| {
+        let place = (i as f64 / (DISC_HEIGHTS - 1) as f64).max(1e-3);
+        let above = sunlight.sun_radius * (DISC_REACH * place * place - 1.0);
+        let mean = sunlight.over_strips(z, sunlight.horizon(z).acos() - above, above, strips);
+        mean.map(|m| (m.max(1e-30) / place.powi(3) as f32).ln())
+    };
+    (0..DISC_HEIGHTS).map(of).collect()
 }
 
 /// Sunlight at one altitude.
@@ -219,7 +218,7 @@ impl<const N: usize> AtAltitude<'_, N> {
         let position = mu.sqrt() * (COSINES - 1) as f64;
         let column = (position as usize).min(COSINES - 2);
         let across = (position - column as f64) as f32;
-        Some(self.interpolate(&self.sunlight.log_depth, COSINES, column, across, |log| exp_one(-exp_one(log))))
+        Some(self.interpolate(&self.sunlight.root_depth, COSINES, column, across, |root| exp_one(-fourth_power(root))))
     }
 
     /// `finish` of what stands between four entries of a table.
@@ -237,12 +236,19 @@ impl<const N: usize> AtAltitude<'_, N> {
         let (c, d) = (&table[base + columns], &table[base + columns + 1]);
         let (wa, wb) = ((1.0 - self.up) * (1.0 - across), (1.0 - self.up) * across);
         let (wc, wd) = (self.up * (1.0 - across), self.up * across);
-        let mut value = [0.0; N];
+        let mut value = splat(0.0);
         for n in 0..N {
             value[n] = finish((wa * a[n] + wb * b[n]) + (wc * c[n] + wd * d[n]));
         }
         value
     }
+}
+
+/// `x`^4.
+#[inline(always)]
+fn fourth_power(x: f32) -> f32 {
+    let square = x * x;
+    square * square
 }
 
 /// Angle from the direction with zenith cosine `horizon` up to that with zenith cosine `mu` [radians], for angles of at most some degrees: the series of the

@@ -1,6 +1,5 @@
 //! All functions of the scattering angle side by side, so that one direction reads them as vectors.
 
-use super::super::lanes::lerp;
 use super::{AngularFunctions, ENTRIES, Table, cosine_at};
 
 /// Functions in a block: a vector of the widest processors.
@@ -93,7 +92,7 @@ impl FunctionRows {
     /// The functions of one block there.
     pub fn values(&self, at: Located, block: usize) -> [f32; BLOCK] {
         let (a, b, fraction) = self.around(at, block);
-        lerp(a, b, fraction)
+        std::array::from_fn(|n| a[n] + fraction * (b[n] - a[n]))
     }
 }
 
