@@ -26,7 +26,7 @@ const DISC_HEIGHTS: usize = 64;
 /// Table of the optical depth towards space for one block of wavelengths.
 pub struct Sunlight<const N: usize> {
     altitudes: Axis,
-    /// Fourth root of the optical depth, (altitude, cosine): linear between the entries within 1e-4 where light is lost, and without an exponential to undo.
+    /// Sixteenth root of the optical depth, (altitude, cosine): nearly as linear between the entries as its logarithm, and powers are cheaper than an exponential.
     root_depth: Vec<Lanes<N>>,
     /// ln of the mean transmittance over the disc, divided by the cube of the place in the table with which it vanishes, (altitude, height).
     log_disc: Vec<Lanes<N>>,
@@ -88,7 +88,7 @@ impl<const N: usize> Sunlight<N> {
         for (value, weight) in corners {
             add_scaled(&mut root, weight, value);
         }
-        root.map(fourth_power)
+        root.map(sixteenth_power)
     }
 
     /// Transmittance from altitude `z` [km] to space towards zenith cosine `mu`; `None` if the ground is in the way.
@@ -155,7 +155,7 @@ impl<const N: usize> Sunlight<N> {
 fn root_depths<const N: usize>(air: &Air<N>, shells: &Axis, z: f64, limits: StepLimits) -> Vec<Lanes<N>> {
     let of = |c: usize| {
         let mu = (c as f64 / (COSINES - 1) as f64).powi(2);
-        Ray::optical_depth(air, shells, z, mu, limits).map(|depth| depth.sqrt().sqrt())
+        Ray::optical_depth(air, shells, z, mu, limits).map(|depth| depth.sqrt().sqrt().sqrt().sqrt())
     };
     (0..COSINES).map(of).collect()
 }
@@ -218,7 +218,7 @@ impl<const N: usize> AtAltitude<'_, N> {
         let position = mu.sqrt() * (COSINES - 1) as f64;
         let column = (position as usize).min(COSINES - 2);
         let across = (position - column as f64) as f32;
-        Some(self.interpolate(&self.sunlight.root_depth, COSINES, column, across, |root| exp_one(-fourth_power(root))))
+        Some(self.interpolate(&self.sunlight.root_depth, COSINES, column, across, |root| exp_one(-sixteenth_power(root))))
     }
 
     /// `finish` of what stands between four entries of a table.
@@ -244,11 +244,11 @@ impl<const N: usize> AtAltitude<'_, N> {
     }
 }
 
-/// `x`^4.
+/// `x`^16.
 #[inline(always)]
-fn fourth_power(x: f32) -> f32 {
-    let square = x * x;
-    square * square
+fn sixteenth_power(x: f32) -> f32 {
+    let fourth = (x * x) * (x * x);
+    (fourth * fourth) * (fourth * fourth)
 }
 
 /// Angle from the direction with zenith cosine `horizon` up to that with zenith cosine `mu` [radians], for angles of at most some degrees: the series of the
