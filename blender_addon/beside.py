@@ -15,7 +15,7 @@ A work is what an operator waits for, and lives on the main thread. It has
 import bpy
 import skyprobe
 
-from . import compat, failures, status_bar
+from . import compat, failures, interface, status_bar
 
 # How often a waiting operator looks at its job [s].
 PERIOD_S = 0.05
@@ -70,7 +70,7 @@ def _end():
             bpy.context.window_manager.event_timer_remove(timer)
             bpy.context.window_manager.progress_end()
         status_bar.show_progress("")
-        redraw()
+        interface.redraw_panels()
 
 
 def _next(work):
@@ -167,7 +167,7 @@ class Beside(failures.Telling):
         fraction, text = self._work.progress()
         context.window_manager.progress_update(fraction)
         status_bar.show_progress(f"{text} (Esc cancels)")
-        redraw()
+        interface.redraw_panels()
 
 
 class SKYPROBE_OT_cancel(bpy.types.Operator):
@@ -180,15 +180,6 @@ class SKYPROBE_OT_cancel(bpy.types.Operator):
     def execute(self, context):
         cancel()
         return {"FINISHED"}
-
-
-def redraw():
-    """Draw the panels of all windows again."""
-    window_manager = getattr(bpy.context, "window_manager", None)
-    for window in window_manager.windows if window_manager else ():
-        for area in window.screen.areas:
-            if area.type in {"PROPERTIES", "VIEW_3D"}:
-                area.tag_redraw()
 
 
 def register():

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import bpy
 import skyprobe
 
-from . import compat, exposure, failures, jobs, scene_probe, status_bar, values, viewport_drawing
+from . import compat, exposure, failures, interface, jobs, scene_probe, status_bar, values, viewport_drawing
 
 # How often the main thread looks for results while there is work [s].
 POLL_S = 0.004
@@ -155,7 +155,7 @@ _worker = None
 
 def changed(settings, context):
     """Follow a change of a property: the update function of all that the light depends on."""
-    viewport_drawing.tag_redraw()
+    viewport_drawing.follow(settings)
     request(settings.id_data)
 
 
@@ -225,7 +225,8 @@ def _poll():
             request(scene)
     if _worker is None:
         return None
-    for scene_key, pixels, outcome, picture in _worker.take():
+    outcomes = _worker.take()
+    for scene_key, pixels, outcome, picture in outcomes:
         scene = compat.scene_of(scene_key)
         if scene is None:
             readouts.pop(scene_key, None)
@@ -234,7 +235,8 @@ def _poll():
             _arrive(scene, pixels, outcome, picture)
         except Exception as error:
             complain(scene, failures.line(error))
-    _redraw()
+    if outcomes:
+        interface.redraw_panels()
     return None if _worker.is_idle() else POLL_S
 
 
@@ -286,13 +288,6 @@ def complain(scene, message):
     """Tell in the panel and in the status bar what is wrong with `scene`, or nothing any more."""
     readout(scene).message = message
     status_bar.show_message(scene, message)
-
-
-def _redraw():
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in {"PROPERTIES", "VIEW_3D"}:
-                area.tag_redraw()
 
 
 def forget():

@@ -10,7 +10,7 @@ drawn until a setting changes.
 import bpy
 from mathutils import Vector
 
-from . import failures, viewport_pens, viewport_scenery
+from . import failures, interface, viewport_pens, viewport_scenery
 
 _handles = []
 _scenery = viewport_scenery.Keeper()
@@ -32,11 +32,13 @@ def tag_redraw():
     """Have every 3D view drawn again, as after a change of what is drawn; what failed gets another chance."""
     global _failure
     _failure = None
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+    interface.redraw_views()
+
+
+def follow(settings):
+    """Draw again, if anything is drawn, after a change of a setting."""
+    if is_on(settings):
+        tag_redraw()
 
 
 def _guarded(draw):
