@@ -144,6 +144,30 @@ def shift_curve(curve, by):
     curve.update()
 
 
+def own_action(thing):
+    """Make sure that no other data has the action of `thing`: a copy of a scene begins with the same one."""
+    data = thing.animation_data
+    if data is not None and data.action is not None and data.action.users > 1 and data.action.library is None:
+        data.action = data.action.copy()
+
+
+def key_frames(thing, data_path):
+    """Return the set of frames, whole ones as such, at which a property of `thing` has keys."""
+    return {point.co.x for curve in curves(thing) if curve.data_path == data_path for point in curve.keyframe_points}
+
+
+def remove_keys(thing, data_path, frames):
+    """Take the keys of one property of `thing` at `frames` away, and a curve that has no others."""
+    for curve in curves(thing):
+        if curve.data_path == data_path:
+            for point in reversed(curve.keyframe_points):
+                if point.co.x in frames:
+                    curve.keyframe_points.remove(point)
+            curve.update()
+    if not key_frames(thing, data_path):
+        remove_curve(thing, data_path)
+
+
 def remove_curve(thing, data_path):
     """Take the animation of one property of `thing` away, if it has one."""
     data = thing.animation_data

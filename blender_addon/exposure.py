@@ -34,25 +34,31 @@ def expose(scene, horizontal_lx):
 
 
 def follow(scene, horizontal_lx):
-    """The same if the user wants the exposure to follow the sky."""
-    if scene.skyprobe.auto_exposure:
+    """The same if the user wants the exposure to follow the sky, and has not animated it."""
+    if scene.skyprobe.auto_exposure and not compat.is_animated(scene, DATA_PATH):
         expose(scene, horizontal_lx)
 
 
-def may_key(scene):
-    """Whether the exposure of `scene` has no keyframes or driver but ours."""
-    return scene.skyprobe.exposure_keyed or not compat.is_animated(scene, DATA_PATH)
-
-
-def insert_key(scene, frame, horizontal_lx):
-    """Keyframe the exposure of `scene` for the light on its ground at `frame`."""
-    expose(scene, horizontal_lx)
-    scene.keyframe_insert(DATA_PATH, frame=frame)
-    scene.skyprobe.exposure_keyed = True
+def insert_keys(scene, lux_by_frame):
+    """Keyframe the exposure of `scene` for the light on its ground [lx] at consecutive frames; return why not, or an empty text."""
+    if compat.is_animated(scene, DATA_PATH):
+        return "the exposure keeps its own animation"
+    try:
+        compat.check_animatable(scene, DATA_PATH)
+    except ValueError as error:
+        return f"the exposure has no keyframes: {error}"
+    compat.own_action(scene)
+    for frame, horizontal_lx in sorted(lux_by_frame.items()):
+        expose(scene, horizontal_lx)
+        scene.keyframe_insert(DATA_PATH, frame=frame)
+    scene.skyprobe.exposure_keys = (min(lux_by_frame), max(lux_by_frame) + 1)
+    return ""
 
 
 def remove_keys(scene):
-    """Take away the keyframes of `insert_key`; a user's own stay."""
-    if scene.skyprobe.exposure_keyed:
-        compat.remove_curve(scene, DATA_PATH)
-        scene.skyprobe.exposure_keyed = False
+    """Take away the keyframes of `insert_keys`. A user's own stay, and a curve that has lost one of ours is the user's."""
+    frames = range(*scene.skyprobe.exposure_keys)
+    scene.skyprobe.exposure_keys = (0, 0)
+    if frames and set(frames) <= compat.key_frames(scene, DATA_PATH):
+        compat.own_action(scene)
+        compat.remove_keys(scene, DATA_PATH, frames)

@@ -219,10 +219,14 @@ def _poll():
     """Take what the worker has made to the scenes. Returns the time until the next look [s], None when all is done."""
     if compat.is_rendering():
         return WAIT_S
+    looked = bool(_first_looks)
     while _first_looks:
         scene = compat.scene_of(_first_looks.pop())
         if scene is not None:
             request(scene)
+    if looked:
+        # What is wrong with a scene is known at once.
+        interface.redraw_panels()
     if _worker is None:
         return None
     outcomes = _worker.take()

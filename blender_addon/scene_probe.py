@@ -133,7 +133,7 @@ def turn_north(scene):
 
 def _show(scene, image, result, what):
     settings = scene.skyprobe
-    if settings.shown == "SEQUENCE" and what != "SEQUENCE":
+    if settings.shown == "SEQUENCE":
         _stop_sequence(scene)
     if scene.world is None or scene.world != settings.probe_world:
         _forget_world(settings)

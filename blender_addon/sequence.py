@@ -86,9 +86,10 @@ class _Sequence:
         first, last = self._frames[0], self._frames[-1]
         image = world_nodes.load_sequence(self._files.picture(first))
         scene_probe.show_sequence(scene, image, (first, last), self._results[first])
-        animate(scene, self._results)
+        complaint = animate(scene, self._results)
         made = len(self._frames) - self._skipped
-        report({"INFO"}, f"Skyprobe: {made} frames rendered, {self._skipped} were there, in {self._files.folder}")
+        text = f"Skyprobe: {made} frames rendered, {self._skipped} were there, in {self._files.folder}"
+        report({"WARNING" if complaint else "INFO"}, f"{text}; {complaint}" if complaint else text)
 
     def _scene(self):
         scene = compat.scene_of(self._scene_key)
@@ -98,10 +99,9 @@ class _Sequence:
 
 
 def animate(scene, results):
-    """Keyframe lamps and, if it follows the sky, exposure of `scene` by `results` (jobs.SkyResult by frame)."""
+    """Keyframe lamps and, if it follows the sky, exposure of `scene` by `results` (jobs.SkyResult by frame); return what could not be, or an empty text."""
     settings = scene.skyprobe
     turns = {}
-    expose = settings.auto_exposure and exposure.may_key(scene)
     for frame, result in sorted(results.items()):
         for name, lamp_of in (("sun_lamp", result.sun), ("moon_lamp", result.moon)):
             lamp = getattr(settings, name)
@@ -114,11 +114,12 @@ def animate(scene, results):
             lamp.keyframe_insert("rotation_euler", frame=frame)
             for path in ("energy", "color", "angle"):
                 lamp.data.keyframe_insert(path, frame=frame)
-        if expose:
-            exposure.insert_key(scene, frame, result.horizontal_lx)
     for lamp in (settings.sun_lamp, settings.moon_lamp):
         if lamp is not None:
             compat.make_linear(lamp, lamp.data)
+    if not settings.auto_exposure:
+        return ""
+    return exposure.insert_keys(scene, {frame: result.horizontal_lx for frame, result in results.items()})
 
 
 class SKYPROBE_OT_render_sequence(beside.Beside, bpy.types.Operator):

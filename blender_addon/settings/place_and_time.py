@@ -63,7 +63,7 @@ def _north_changed(settings, context):
         scene_probe.turn_north(settings.id_data)
     except Exception as error:
         live.complain(settings.id_data, failures.line(error))
-    viewport_drawing.tag_redraw()
+    viewport_drawing.follow(settings)
 
 
 class PlaceAndTime:

@@ -2,7 +2,7 @@
 """The probe, the lamps beside it, the preview, and what is drawn in the viewport."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, IntVectorProperty, PointerProperty, StringProperty
 
 from .. import choices, live, viewport_drawing
 
@@ -187,5 +187,5 @@ class Made:
     image_key: StringProperty()
     # The rest of its jobs.SkyResult, as JSON.
     image_result: StringProperty()
-    # Whether the exposure of the scene has keyframes of the sequence.
-    exposure_keyed: BoolProperty()
+    # The frames at which the exposure of the scene has keyframes of the sequence: the first, and the one after the last.
+    exposure_keys: IntVectorProperty(size=2)

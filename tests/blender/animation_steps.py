@@ -88,26 +88,54 @@ def handler_against_sequence(folder):
     }
 
 
-def exposure_keys(folder, own_keys):
-    """Render a sequence with the exposure following the sky, in a scene with or without own keyframes of it; tell the frames of the keys as it plays, after it was left, and after it was removed."""
-    scene = sunset_scene(folder, frames=2)
-    scene.skyprobe.auto_exposure = True
-    if own_keys:
-        scene.keyframe_insert("view_settings.exposure", frame=3)
+def exposure_keys(folder):
+    """Let sequences keyframe the exposure in scenes of several histories; tell the frames of its keys at each stop."""
     compat = part("compat")
 
-    def keys():
-        return [
-            point.co.x for curve in compat.curves(scene) if curve.data_path == "view_settings.exposure" for point in curve.keyframe_points
-        ]
+    def begin(frames=3):
+        scene = sunset_scene(folder, frames)
+        scene.skyprobe.auto_exposure = True
+        return scene
 
+    def keys(scene):
+        return sorted(compat.key_frames(scene, "view_settings.exposure"))
+
+    answer = {}
+    scene = begin()
     bpy.ops.skyprobe.render_sequence()
-    playing = keys()
+    answer["playing"] = keys(scene)
     bpy.ops.skyprobe.leave_sequence()
-    left = keys()
+    answer["left"] = keys(scene)
+    bpy.ops.skyprobe.render_sequence()
+    scene.frame_end = 11
+    bpy.ops.skyprobe.render_sequence()
+    answer["shorter"] = keys(scene)
+    copied = scene.copy()
+    with bpy.context.temp_override(scene=copied):
+        bpy.ops.skyprobe.leave_sequence()
+    answer["copy left, original"] = keys(copied) + keys(scene)
+    scene.skyprobe.auto_exposure = False
+    bpy.ops.skyprobe.render_sequence()
+    answer["no longer wanted"] = keys(scene)
+    scene.skyprobe.auto_exposure = True
     bpy.ops.skyprobe.render_sequence()
     bpy.ops.skyprobe.remove()
-    return {"playing": playing, "left": left, "removed": keys()}
+    answer["removed"] = keys(scene)
+
+    scene = begin()
+    scene.keyframe_insert("view_settings.exposure", frame=3)
+    bpy.ops.skyprobe.render_sequence()
+    answer["own"] = keys(scene)
+    bpy.ops.skyprobe.remove()
+    answer["own, removed"] = keys(scene)
+
+    scene = begin()
+    bpy.ops.skyprobe.render_sequence()
+    compat.remove_curve(scene, "view_settings.exposure")
+    scene.keyframe_insert("view_settings.exposure", frame=11)
+    bpy.ops.skyprobe.remove()
+    answer["keyed by hand afterwards"] = keys(scene)
+    return answer
 
 
 def rendered_in_turn(folder):
