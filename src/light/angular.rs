@@ -25,6 +25,7 @@ use crate::atmosphere::Phase;
 use multiversion::multiversion;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Entries of the tables of functions, equidistant in sqrt(sin(angle / 2)).
 const ENTRIES: usize = 1025;
@@ -79,10 +80,15 @@ pub struct Once {
 impl AngularFunctions {
     /// For `phase` at a number of wavelengths, beside a field that holds orders up to `order`, and a Sun of angular radius `sun_radius` [radians].
     pub fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
+        Self::unless(&AtomicBool::new(false), phase, wavelengths, order, sun_radius)
+    }
+
+    /// The same, soon and of no use if `given_up` is set on the way.
+    pub fn unless(given_up: &AtomicBool, phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
         if let Some(weights) = (0..wavelengths).map(|w| phase.molecular_weights(w)).collect() {
             return Self::Molecules(weights);
         }
-        Self::Table(Table::new(phase, wavelengths, order, sun_radius))
+        Self::Table(Table::new(given_up, phase, wavelengths, order, sun_radius))
     }
 
     /// Number of functions.
@@ -175,9 +181,11 @@ struct Made {
 }
 
 impl Table {
-    fn new(phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
+    fn new(given_up: &AtomicBool, phase: &Phase, wavelengths: usize, order: usize, sun_radius: f64) -> Self {
+        let given_up = || given_up.load(Ordering::Relaxed);
         let cosines: Vec<f64> = (0..ENTRIES).map(cosine_at).collect();
-        let moments: Vec<Vec<f64>> = (0..wavelengths).into_par_iter().map(|w| moments(phase, w)).collect();
+        let moments: Vec<Vec<f64>> =
+            (0..wavelengths).into_par_iter().map(|w| if given_up() { vec![1.0] } else { moments(phase, w) }).collect();
         let most = moments.iter().map(Vec::len).max().unwrap_or(0).max(order + 1);
         let legendre = legendre_table(most, &cosines);
         let disc = disc_moments(most, sun_radius);
@@ -195,7 +203,7 @@ impl Table {
                 let peak_after = |path: f64| {
                     // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
                     let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
-                    for l in 0..most {
+                    for l in 0..if given_up() { 0 } else { most } {
                         let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
                         let repeated = if path > 0.0 { (path * chi).exp_m1() / path } else { chi };
                         let added = repeated * disc[l] - chi;

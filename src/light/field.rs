@@ -20,6 +20,7 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Cosine of the solar zenith angle below which light scattered once is summed in finer steps: with the Sun at 3 degrees coarse ones are 0.1 % wrong at most, at -6 degrees 1 %.
 const LOW_SUN: f64 = -0.03;
@@ -121,14 +122,21 @@ impl LightField {
                 })
                 .collect::<Result<Vec<_>>>()
         };
+        let given_up = AtomicBool::new(false);
         let phases: Vec<&Phase> = profile.components.iter().filter_map(|component| component.phase.as_ref()).collect();
         let functions = || {
             let of = |phase: &&Phase| {
-                AngularFunctions::new(phase, wavelengths, numbers.order, profile.sun_angular_radius_deg.to_radians())
+                let sun_radius = profile.sun_angular_radius_deg.to_radians();
+                AngularFunctions::unless(&given_up, phase, wavelengths, numbers.order, sun_radius)
             };
             phases.par_iter().map(of).collect::<Vec<_>>()
         };
-        let (blocks, functions) = rayon::join(blocks, functions);
+        let solve = || {
+            let blocks = blocks();
+            given_up.store(blocks.is_err(), Ordering::Relaxed);
+            blocks
+        };
+        let (blocks, functions) = rayon::join(solve, functions);
         let blocks = blocks?;
         Ok(Self { grid, blocks, wavelengths, polarised, functions: Arc::new(functions), limits })
     }

@@ -75,7 +75,7 @@ pub fn splat<const N: usize>(value: f32) -> Lanes<N> {
     Lanes([value; N])
 }
 
-/// `accumulator += a * b`, lane by lane.
+/// `accumulator += a * b`, lane by lane; in a copy, as a compiler that cannot tell whether `a` or `b` changes with the accumulator adds one lane after the other.
 #[inline(always)]
 pub fn add_product<const N: usize>(accumulator: &mut Lanes<N>, a: &Lanes<N>, b: &Lanes<N>) {
     let mut sum = *accumulator;
@@ -85,7 +85,7 @@ pub fn add_product<const N: usize>(accumulator: &mut Lanes<N>, a: &Lanes<N>, b: 
     *accumulator = sum;
 }
 
-/// `accumulator += factor * a`, lane by lane.
+/// `accumulator += factor * a`, lane by lane, in a copy as [`add_product`].
 #[inline(always)]
 pub fn add_scaled<const N: usize>(accumulator: &mut Lanes<N>, factor: f32, a: &Lanes<N>) {
     let mut sum = *accumulator;
