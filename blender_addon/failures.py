@@ -10,6 +10,8 @@ from . import jobs
 
 # Letters of a line; of a longer one the beginning and the end are told, which name the parameter and what is allowed.
 LONGEST = 400
+# What Blender says when a script changes data while it draws, or thinks that it does.
+LOCKED = "Writing to ID classes in this context is not allowed"
 
 
 def line(error):
@@ -20,6 +22,8 @@ def line(error):
         text = str(error)
     elif isinstance(error, MemoryError):
         text = "memory = all in use: must be enough for the picture; choose a smaller resolution"
+    elif isinstance(error, AttributeError) and LOCKED in str(error):
+        text = "Blender = locked: must let scripts change its data, which a render can leave forbidden; save the file and start Blender again"
     else:
         text = f"Skyprobe failed, which is a fault in it: {type(error).__name__} {error} ({_origin(error)}); please report this line"
     text = " ".join(text.split())

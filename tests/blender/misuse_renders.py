@@ -332,6 +332,15 @@ def no_memory(stage):
         return stage.render()
 
 
+@case("Blender = locked: must let scripts change its data")
+def locked(stage):
+    """Blender refuses every change of its data, as it can after a render in a window."""
+    stage.add()
+    refusal = AttributeError("Writing to ID classes in this context is not allowed: Scene, Scene datablock, error setting SkyprobeSettings.image")
+    with replaced(part("scene_probe"), "show_probe", _failing(refusal)):
+        return stage.render()
+
+
 @case("Skyprobe failed, which is a fault in it: ZeroDivisionError in the worker")
 def failure_of_the_live_preview(stage):
     """The worker of the live preview meets a failure in the picture, and in the day: it tells, and lives on."""
