@@ -147,7 +147,7 @@ def shift_curve(curve, by):
 def own_action(thing):
     """Make sure that no other data has the action of `thing`: a copy of a scene begins with the same one."""
     data = thing.animation_data
-    if data is not None and data.action is not None and data.action.users > 1 and data.action.library is None:
+    if data is not None and data.action is not None and (data.action.users > 1 or data.action.library is not None):
         data.action = data.action.copy()
 
 

@@ -68,8 +68,7 @@ def copy(lamp):
     new = lamp.copy()
     new.data = lamp.data.copy()
     for thing in (new, new.data):
-        if thing.animation_data and thing.animation_data.action:
-            thing.animation_data.action = thing.animation_data.action.copy()
+        compat.own_action(thing)
     return new
 
 

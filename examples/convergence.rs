@@ -1,4 +1,5 @@
-//! How far the solver is from its own limit: a quality level against the same with every grid doubled, and against air that reaches 20 km higher, by the Sun's altitude.
+//! How far the solver is from its own limit: a quality level against the same with every grid doubled, against air that reaches 20 km higher, and against `reference`, which
+//! has more orders of the harmonics besides, by the Sun's altitude.
 //!
 //! ```text
 //! cargo run --release --example convergence -- high
@@ -86,8 +87,11 @@ fn main() -> skyprobe::Result<()> {
     let profile = AirParameters::default().optical_profile(&wavelengths)?;
     let numbers = quality.numbers();
     let own = solve(&profile, &numbers)?;
-    let others =
-        [("every grid doubled", solve(&profile, &doubled(&numbers))?), ("20 km more air", solve(&raised(&profile), &numbers)?)];
+    let others = [
+        ("every grid doubled", solve(&profile, &doubled(&numbers))?),
+        ("20 km more air", solve(&raised(&profile), &numbers)?),
+        ("quality reference", solve(&profile, &Quality::Reference.numbers())?),
+    ];
     for (name, other) in others {
         println!("{name}: Sun altitude, rms and largest difference in per cent");
         for sun in SUNS_DEG {

@@ -203,7 +203,8 @@ impl Table {
                 let peak_after = |path: f64| {
                     // The peak of a point without repetitions is the phase function itself less the rest, exactly; the series adds what repetitions and the disc add.
                     let mut peak: Vec<f64> = whole.iter().zip(&rest).map(|(whole, rest)| whole - (1.0 - share) * rest).collect();
-                    for l in 0..if given_up() { 0 } else { most } {
+                    let orders = if given_up() { 0 } else { most };
+                    for l in 0..orders {
                         let chi = if l <= order { share } else { moments.get(l).copied().unwrap_or(0.0) };
                         let repeated = if path > 0.0 { (path * chi).exp_m1() / path } else { chi };
                         let added = repeated * disc[l] - chi;

@@ -159,6 +159,7 @@ impl<const N: usize> Ray<N> {
     }
 }
 
+/// [`Ray::trace`]: a method cannot be compiled for several processors.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx512bw+avx2+fma", "x86_64+avx2+fma"))]
 fn trace<const N: usize>(air: &Air<N>, shells: &Axis, start_altitude: f64, mu: f64, limits: StepLimits) -> Ray<N> {
     let mut ray = Ray { start_altitude, zenith_cosine: mu, points: Vec::new(), ground: None };
