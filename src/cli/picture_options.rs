@@ -1,7 +1,7 @@
 //! Options of commands that finish a picture: what the file does not say of it.
 
 use crate::error::{Error, Result};
-use crate::io::{PictureHints, check_output, read_picture};
+use crate::io::{PictureHints, PictureLimits, check_output, read_picture};
 use crate::post::{Picture, Repairs};
 use clap::Args;
 use std::path::Path;
@@ -27,17 +27,24 @@ pub struct PictureOptions {
     /// Space of the pixels: lin_rec709, acescg, lin_rec2020 or xyz. Default: what the header says, else lin_rec709.
     #[arg(long, value_name = "NAME", help_heading = PICTURE)]
     color_space: Option<String>,
+    /// Largest picture to read, above 0 to 1073.741824 [million pixels]; a million take some 25 MB of memory. Default: 256.
+    #[arg(long, value_name = "MILLIONS", help_heading = PICTURE)]
+    max_megapixels: Option<f64>,
 }
 
 impl PictureOptions {
     /// What was given.
     pub fn hints(&self) -> Result<PictureHints> {
+        let plain = PictureLimits::default();
+        let limits = PictureLimits { max_megapixels: self.max_megapixels.unwrap_or(plain.max_megapixels) };
+        limits.validate()?;
         Ok(PictureHints {
             projection: self.projection.as_deref().map(str::parse).transpose()?,
             rows: self.rows.as_deref().map(str::parse).transpose()?,
             field_of_view_deg: self.fov,
             white_luminance: self.white_luminance,
             color_space: self.color_space.as_deref().map(str::parse).transpose()?,
+            limits,
         })
     }
 

@@ -7,7 +7,7 @@
 //! | projection | the caller; `skyprobe.projection`; perspective, also for 2:1 |
 //! | rows, field of view | the caller; `skyprobe.rows`, `skyprobe.field_of_view_deg`; centre, and 39.6 degrees, Blender's first camera |
 
-use super::{exr, hdr};
+use super::{PictureLimits, exr, hdr};
 use crate::error::{Error, Result};
 use crate::post::picture::{DEFAULT_FIELD_OF_VIEW_DEG, PictureProjection};
 use crate::post::{Picture, View};
@@ -43,6 +43,8 @@ pub struct PictureHints {
     pub white_luminance: Option<f64>,
     /// The space of the pixels.
     pub color_space: Option<ColorSpace>,
+    /// How large a picture may be.
+    pub limits: PictureLimits,
 }
 
 /// Reads the picture in `path`, an `.exr` or `.hdr` (also `.pic`) file.
@@ -54,8 +56,8 @@ pub fn read_picture(path: impl AsRef<Path>, hints: &PictureHints) -> Result<Pict
     let path = path.as_ref();
     let suffix = path.extension().map(|suffix| suffix.to_string_lossy().to_ascii_lowercase());
     let raw = match suffix.as_deref() {
-        Some("exr") => exr::read_rgb(path)?,
-        Some("hdr" | "pic" | "rgbe") => hdr::read_rgb(path)?,
+        Some("exr") => exr::read_rgb(path, &hints.limits)?,
+        Some("hdr" | "pic" | "rgbe") => hdr::read_rgb(path, &hints.limits)?,
         _ => return Err(Error::input("input", path.display(), "the name of a file that ends in .exr or .hdr")),
     };
     let view = view(&raw.fields, hints)?;

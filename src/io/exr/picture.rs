@@ -2,8 +2,8 @@
 
 use super::texts;
 use crate::error::{Error, Result};
+use crate::io::PictureLimits;
 use crate::io::read::Raw;
-use crate::post::picture::MAX_SIDE;
 use crate::spectrum::Chromaticities;
 use ::exr::image::{AnyChannels, FlatSamples, Layer};
 use ::exr::meta::MetaData;
@@ -27,10 +27,10 @@ struct Found {
 ///
 /// # Errors
 /// [`Error::File`] for a file that is damaged or cut short; [`Error::Data`] if it has no such channels.
-pub fn read_rgb(path: &Path) -> Result<Raw> {
+pub fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
     let failed = |error: ::exr::error::Error| Error::file(path, format!("not a sound OpenEXR file ({error})"));
     let file = std::fs::File::open(path).map_err(|error| Error::file(path, error))?;
-    check_size(path, &MetaData::read_from_file(path, false).map_err(failed)?)?;
+    check_size(path, limits, &MetaData::read_from_file(path, false).map_err(failed)?)?;
     let reader = ::exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
     let image = reader.from_buffered(BufReader::new(file)).map_err(failed)?;
 
@@ -63,15 +63,12 @@ pub fn read_rgb(path: &Path) -> Result<Raw> {
 }
 
 /// A damaged header must not ask for more memory than there is.
-fn check_size(path: &Path, meta: &MetaData) -> Result<()> {
+fn check_size(path: &Path, limits: &PictureLimits, meta: &MetaData) -> Result<()> {
     let length = std::fs::metadata(path).map_err(|error| Error::file(path, error))?.len();
     let mut bytes = 0_u64;
     for header in &meta.headers {
         for size in [header.layer_size, header.shared_attributes.display_window.size] {
-            if size.width().max(size.height()) > MAX_SIDE || size.area() == 0 {
-                let reason = format!("{} x {} pixels, where 1 to {MAX_SIDE} can be", size.width(), size.height());
-                return Err(Error::file(path, reason));
-            }
+            limits.check(path, size.width() as u64, size.height() as u64)?;
         }
         if header.deep {
             return Err(Error::file(path, "deep data, which have no single picture"));

@@ -2,6 +2,7 @@
 
 use super::decode;
 use crate::error::{Error, Result};
+use crate::io::PictureLimits;
 use crate::io::read::Raw;
 use crate::post::picture::MAX_SIDE;
 use crate::spectrum::{Chromaticities, ColorSpace};
@@ -15,7 +16,8 @@ const NEW_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 ///
 /// # Errors
 /// [`Error::File`] for a file that is none, is damaged or cut short.
-pub fn read_rgb(path: &Path) -> Result<Raw> {
+pub fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
+    limits.validate()?;
     let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
     parse(&bytes).map_err(|reason| Error::file(path, format!("not a sound Radiance picture ({reason})")))
 }

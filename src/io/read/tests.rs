@@ -180,7 +180,7 @@ fn pictures_come_back() {
         field_of_view_deg: Some(90.0),
         white_luminance: Some(2.0),
         color_space: Some(ColorSpace::AcesCg),
-        rows: None,
+        ..Default::default()
     };
     let found = read_picture(folder.path().join("a.exr"), &hints).unwrap();
     assert_eq!(found.view, View::Perspective { horizontal_field_of_view_deg: 90.0 });

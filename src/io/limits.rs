@@ -1,0 +1,136 @@
+//! How large a picture may be that is read: a header is a promise, and a file of a few bytes can promise more than any machine holds.
+
+use crate::error::{Error, Result, check_range};
+use crate::post::picture::MAX_SIDE;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Most pixels of any picture [millions]: [`MAX_SIDE`] squared.
+const ALL_MEGAPIXELS: f64 = (MAX_SIDE * MAX_SIDE) as f64 / 1e6;
+
+/// Bounds of what the readers of pictures take from a file before they refuse it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureLimits {
+    /// Most pixels of a picture [millions], above 0 to 1073.741824, which is all that a picture can have. A million pixels take 12 MB in memory, and about as much again
+    /// while they are read. Default: 256, so that probes of 16384 x 8192 (134) are within.
+    pub max_megapixels: f64,
+}
+
+impl Default for PictureLimits {
+    fn default() -> Self {
+        Self { max_megapixels: 256.0 }
+    }
+}
+
+impl PictureLimits {
+    /// Checks the limits themselves.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for one that is out of its range.
+    pub fn validate(&self) -> Result<()> {
+        check_range("max_megapixels", self.max_megapixels, 1e-6, ALL_MEGAPIXELS, "million pixels").map(|_| ())
+    }
+
+    /// The number of pixels of a picture of `width` x `height`, as the header of `path` says it, if it is within the limits.
+    ///
+    /// # Errors
+    /// [`Error::File`] for a side of 0 or over [`MAX_SIDE`]; [`Error::Input`] for `max_megapixels` if the picture has more.
+    pub fn check(&self, path: &Path, width: u64, height: u64) -> Result<usize> {
+        self.validate()?;
+        let possible = 1..=MAX_SIDE as u64;
+        if !possible.contains(&width) || !possible.contains(&height) {
+            return Err(Error::file(
+                path,
+                format!("the header says {width} x {height} pixels, where 1 to {MAX_SIDE} a side can be"),
+            ));
+        }
+        let pixels = width * height;
+        if pixels as f64 > self.max_megapixels * 1e6 {
+            let least = (pixels as f64 / 1e3).ceil() / 1e3;
+            let allowed = format!("at least {least} to read {}, whose header says {width} x {height} pixels", path.display());
+            return Err(Error::input("max_megapixels", self.max_megapixels, allowed));
+        }
+        Ok(pixels as usize)
+    }
+}
+
+/// `count` zeros, or an error where the memory for them is not to be had. They take room only as they are written to.
+///
+/// # Errors
+/// [`Error::File`] for `path`, whose content they were to hold.
+pub(super) fn zeros<T: Copy + Default>(path: &Path, count: usize) -> Result<Vec<T>> {
+    // Asked for first where a refusal is an answer; the allocation of zeros itself knows none.
+    let mut asked: Vec<T> = Vec::new();
+    asked.try_reserve_exact(count).map_err(|_| no_memory::<T>(path, count))?;
+    drop(asked);
+    Ok(vec![T::default(); count])
+}
+
+fn no_memory<T>(path: &Path, count: usize) -> Error {
+    let megabytes = count as f64 * size_of::<T>() as f64 / 1e6;
+    Error::file(path, format!("there is no memory for the {megabytes:.0} MB that its content takes"))
+}
+
+/// The content of a file of at most `most` bytes.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read or is longer.
+pub(super) fn read_file(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let failed = |error: std::io::Error| Error::file(path, error);
+    let file = File::open(path).map_err(failed)?;
+    let length = file.metadata().map_err(failed)?.len();
+    let longer = || Error::file(path, format!("it is longer than the {most} bytes that such a picture can take"));
+    if length > most {
+        return Err(longer());
+    }
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length as usize + 1).map_err(|_| no_memory::<u8>(path, length as usize))?;
+    // What is no plain file has no length of its own.
+    file.take(most + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > most { Err(longer()) } else { Ok(bytes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_probes_are_within_and_what_is_over_tells_how_to_have_it() {
+        let limits = PictureLimits::default();
+        let path = Path::new("a.exr");
+        assert_eq!(limits.check(path, 16384, 8192).unwrap(), 1 << 27);
+        let message = limits.check(path, 32768, 32768).unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "max_megapixels = 256: must be at least 1073.742 to read a.exr, whose header says 32768 x 32768 pixels"
+        );
+        let all = PictureLimits { max_megapixels: 1073.741824 };
+        assert_eq!(all.check(path, 32768, 32768).unwrap(), 1 << 30);
+        for (width, height) in [(0, 1), (1, 0), (32769, 1), (1, u64::MAX)] {
+            assert!(matches!(all.check(path, width, height), Err(Error::File { .. })), "{width} x {height}");
+        }
+        for max_megapixels in [0.0, -1.0, 1e9, f64::NAN] {
+            let message = PictureLimits { max_megapixels }.check(path, 1, 1).unwrap_err().to_string();
+            assert!(message.starts_with("max_megapixels = ") && message.contains("1073.741824"), "{message}");
+        }
+    }
+
+    #[test]
+    fn memory_that_is_not_there_is_an_error() {
+        let path = Path::new("a.exr");
+        assert_eq!(zeros::<f32>(path, 3).unwrap(), [0.0; 3]);
+        let message = zeros::<f32>(path, usize::MAX / 8).unwrap_err().to_string();
+        assert!(message.starts_with("a.exr: there is no memory for the"), "{message}");
+    }
+
+    #[test]
+    fn files_are_read_up_to_their_bound() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.hdr");
+        std::fs::write(&path, [7; 100]).unwrap();
+        assert_eq!(read_file(&path, 100).unwrap(), [7; 100]);
+        assert!(read_file(&path, 99).unwrap_err().to_string().contains("longer than the 99 bytes"));
+        assert!(matches!(read_file(&folder.path().join("none"), 1), Err(Error::File { .. })));
+    }
+}
