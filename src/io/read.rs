@@ -28,6 +28,8 @@ pub(super) struct Raw {
     pub chromaticities: Option<Chromaticities>,
     /// Texts and numbers of the header by name.
     pub fields: BTreeMap<String, String>,
+    /// What of the header could not be understood and was left aside, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// What the caller knows better than the file.

@@ -59,7 +59,7 @@ pub fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
         let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.x()), f64::from(v.y())];
         Chromaticities { red: pair(c.red), green: pair(c.green), blue: pair(c.blue), white: pair(c.white) }
     });
-    Ok(Raw { width, height, pixels, chromaticities, fields: texts(&image.attributes, &layer.attributes) })
+    Ok(Raw { width, height, pixels, chromaticities, fields: texts(&image.attributes, &layer.attributes), notes: Vec::new() })
 }
 
 /// A damaged header must not ask for more memory than there is.
