@@ -10,7 +10,7 @@ mod read;
 mod rows;
 mod write;
 
-pub use read::read_fields;
+pub use read::header_fields;
 pub(super) use read::{read_rgb, read_rgb_bytes};
 pub(super) use write::{header, picture_header};
 

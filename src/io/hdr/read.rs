@@ -34,13 +34,13 @@ pub fn read_rgb_bytes(bytes: &[u8], limits: &PictureLimits) -> Result<Raw> {
     parse(&mut Cursor::new(bytes), Path::new("bytes"), limits)
 }
 
-/// Our own fields in the header of a Radiance file, by their full names such as `skyprobe.config`; those that were divided over several lines are whole again.
+/// Our own fields in the header of a Radiance file that begins with `bytes`, by their full names such as `skyprobe.config`; those that were divided over several
+/// lines are whole again.
 ///
 /// # Errors
-/// [`Error::File`] for a file that cannot be read or whose header is none.
-pub fn read_fields(path: impl AsRef<Path>) -> Result<BTreeMap<String, String>> {
-    let path = path.as_ref();
-    Ok(Header::read(&mut open(path)?).map_err(|reason| refusal(path, &reason))?.fields)
+/// The reason, for a header that is none.
+pub fn header_fields(mut bytes: &[u8]) -> Parsed<BTreeMap<String, String>> {
+    Header::read(&mut bytes).map(|header| header.fields)
 }
 
 /// Files that have an end: the rows are read twice.

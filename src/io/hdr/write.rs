@@ -1,7 +1,7 @@
 //! The header of a Radiance picture that we write.
 //!
 //! Its lines are short: other readers take them piece by piece, and stumble over some lengths (OpenCV over 635 bytes, OpenImageIO over 640). A longer field of
-//! our own is divided over several, `skyprobe.config.1`, `skyprobe.config.2`, ..., which [`read_fields`](super::read_fields) joins again; a longer standard one is repeated.
+//! our own is divided over several, `skyprobe.config.1`, `skyprobe.config.2`, ..., which [`header_fields`](super::header_fields) joins again; a longer standard one is repeated.
 
 use super::super::{metadata::Metadata, own_fields};
 use crate::probe::ProbeSettings;
@@ -82,7 +82,7 @@ fn values(color_space: ColorSpace, (width, height): (usize, usize)) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fields::Header;
+    use super::super::header_fields;
     use super::*;
     use proptest::prelude::*;
 
@@ -101,7 +101,7 @@ mod tests {
     }
 
     fn config_in(header: &str) -> String {
-        Header::read(&mut header.as_bytes()).unwrap().fields.remove("skyprobe.config").unwrap()
+        header_fields(header.as_bytes()).unwrap().remove("skyprobe.config").unwrap()
     }
 
     #[test]
