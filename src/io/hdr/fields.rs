@@ -13,11 +13,12 @@
 //! are not its own. What cannot be understood of these is left aside with a note, and what is not in the table without one; `#?` is not asked for.
 
 use crate::spectrum::{Chromaticities, ColorSpace};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{BufRead, Read};
 
 /// Longest header [bytes]: nothing that is a header comes near it.
-const LONGEST_HEADER: usize = 64 << 20;
+const LONGEST_HEADER: usize = 32 << 20;
 
 /// What is kept of a line [bytes].
 const LONGEST_LINE: usize = 1 << 16;
@@ -46,11 +47,11 @@ impl Header {
     pub fn read(reader: &mut impl BufRead) -> Parsed<Self> {
         let mut header =
             Self { is_xyz: false, divisors: [1.0; 3], chromaticities: None, fields: BTreeMap::new(), notes: BTreeMap::new() };
-        let mut left = LONGEST_HEADER;
+        let (mut left, mut bytes) = (LONGEST_HEADER, Vec::new());
         let mut is_radiance = false;
         loop {
             let is_first = left == LONGEST_HEADER;
-            let Some(line) = line(reader, &mut left)? else {
+            let Some(line) = line(reader, &mut left, &mut bytes)? else {
                 return Err(if is_radiance { "its header does not end" } else { "neither #? nor the end of a header is there" }
                     .to_owned());
             };
@@ -113,11 +114,11 @@ impl Header {
     }
 }
 
-/// The next line, without its end and what is over [`LONGEST_LINE`]; `None` if there is none. It takes its bytes from those that are `left`.
-pub fn line(reader: &mut impl BufRead, left: &mut usize) -> Parsed<Option<String>> {
+/// The next line, without its end and what is over [`LONGEST_LINE`]; `None` if there is none. It takes its length from the bytes that are `left`, and room in `bytes`.
+pub fn line<'a>(reader: &mut impl BufRead, left: &mut usize, bytes: &'a mut Vec<u8>) -> Parsed<Option<Cow<'a, str>>> {
     let failed = |error: std::io::Error| error.to_string();
-    let mut bytes = Vec::new();
-    reader.by_ref().take(LONGEST_LINE as u64).read_until(b'\n', &mut bytes).map_err(failed)?;
+    bytes.clear();
+    reader.by_ref().take(LONGEST_LINE as u64).read_until(b'\n', bytes).map_err(failed)?;
     let mut taken = bytes.len();
     let mut ended = bytes.last() == Some(&b'\n');
     while !ended {
@@ -135,8 +136,8 @@ pub fn line(reader: &mut impl BufRead, left: &mut usize) -> Parsed<Option<String
         }
     }
     *left = left.checked_sub(taken).ok_or_else(|| format!("its header does not end within {} MB", LONGEST_HEADER >> 20))?;
-    let text = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
-    Ok(Some(String::from_utf8_lossy(text.strip_suffix(b"\r").unwrap_or(text)).into_owned()))
+    let text = bytes.strip_suffix(b"\n").unwrap_or(bytes);
+    Ok(Some(String::from_utf8_lossy(text.strip_suffix(b"\r").unwrap_or(text))))
 }
 
 /// `factors` times `others`, if each product is one that values can be divided by.
@@ -323,7 +324,7 @@ mod tests {
         for endless in [b'\n', b'7'] {
             let mut lines = std::io::BufReader::new(Read::chain(&b"#?RADIANCE\nx"[..], std::io::repeat(endless)));
             let read = Header::read(&mut lines);
-            assert!(if endless == b'\n' { read.is_ok() } else { read.unwrap_err().contains("within 64 MB") });
+            assert!(if endless == b'\n' { read.is_ok() } else { read.unwrap_err().contains("within 32 MB") });
         }
     }
 }

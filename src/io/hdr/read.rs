@@ -61,8 +61,8 @@ fn parse<R: BufRead + Seek>(reader: &mut R, path: &Path, limits: &PictureLimits)
     let told = |reason: String| refusal(path, &reason);
     let failed = |error: std::io::Error| Error::file(path, error);
     let header = Header::read(reader).map_err(told)?;
-    let mut left = LONGEST_SIZE;
-    let size = line(reader, &mut left).ok().flatten().ok_or_else(|| told("the line of its size is missing".to_owned()))?;
+    let (mut left, mut bytes) = (LONGEST_SIZE, Vec::new());
+    let size = line(reader, &mut left, &mut bytes).ok().flatten().ok_or_else(|| told("the line of its size is missing".to_owned()))?;
     let layout = Layout::of(&size).ok_or_else(|| told(format!("{:?} is not its size", size.trim())))?;
     let start = reader.stream_position().map_err(failed)?;
     let bytes = reader.seek(SeekFrom::End(0)).map_err(failed)?.saturating_sub(start);
