@@ -3,6 +3,7 @@
     python mitsuba_scenes/render.py --latitude 55.71 --longitude 13.19 --time 2005-06-21T17:00:00+02:00 --output lund.exr
 
 writes lund.exr (linear), lund.png (to look at) and lund_probe.exr (the light). Needs the Python packages skyprobe and mitsuba.
+The header of lund.exr says how bright its numbers are and how wide it looks, so that `skyprobe glare` and `skyprobe tonemap` know it.
 """
 
 import argparse
@@ -108,19 +109,64 @@ def load_mitsuba(variant):
     return mi
 
 
-def warn_of_centred_rows(mi, path):
+def header_of(mi, path):
+    """What the header of a probe says, by name."""
+    if path.suffix.lower() != ".hdr":
+        found = mi.Bitmap(str(path)).metadata()
+        return {name: found[name] for name in found.keys()}
+    # Mitsuba leaves the header of a Radiance file aside. Its lines end where an empty one is.
+    with path.open("rb") as file:
+        lines = iter(lambda: file.readline(1 << 16).rstrip(b"\r\n"), b"")
+        pairs = (line.decode("utf-8", "replace").partition("=") for line in lines)
+        return {name: value.strip() for name, _, value in pairs if name.startswith("skyprobe.")}
+
+
+def warn_of_centred_rows(path, header):
     """Says so if the file's header says that it was not made for Mitsuba."""
-    header = mi.Bitmap(str(path)).metadata()
-    if "skyprobe.rows" in header and header["skyprobe.rows"] != "corner":
+    if header.get("skyprobe.rows", "corner") != "corner":
         print(f"warning: {path} has its rows in the centre, the sky will stand up to half a row too high (README.md)", file=sys.stderr)
 
 
-def render(mi, scene_path, probe_path, width, spp):
+# Luminance of a pixel of value 1 in each scale [cd m-2]: 683 lm/W, and for Mitsuba times the integral of ybar, 106.857 nm.
+WHITE_LUMINANCE = {"blender": 683.0, "mitsuba": 683.0 * 106.857, "luminance": 1.0}
+
+
+def white_luminance(path, header):
+    """The luminance of a pixel of value 1 that the probe's header says [cd m-2]; None, and a warning, if it says none."""
+    scale = WHITE_LUMINANCE.get(header.get("skyprobe.scale"))
+    for value in (header.get("skyprobe.white_luminance"), header.get("whiteLuminance"), scale):
+        try:
+            luminance = float(value)
+        except (TypeError, ValueError):
+            continue
+        if 1e-9 <= luminance <= 1e9:
+            return luminance
+    print(f"warning: {path} does not say its scale, and so the picture will not", file=sys.stderr)
+    return None
+
+
+def load_scene(mi, scene_path, probe_path, width, spp):
+    """The scene with the probe as its light, for a picture of 3 : 2."""
+    height = width * 2 // 3
+    return mi.load_file(str(scene_path), probe=str(probe_path), width=str(width), height=str(height), spp=str(spp))
+
+
+def describe(mi, scene, luminance):
+    """What the header of the picture says: the luminance of a pixel of value 1, and the camera's field of view."""
+    told = {"skyprobe.color_space": "lin_rec709"}
+    if luminance is not None:
+        told["skyprobe.white_luminance"] = repr(luminance)
+    camera = mi.traverse(scene.sensors()[0])
+    if "x_fov" in camera:
+        told |= {"skyprobe.projection": "perspective", "skyprobe.field_of_view_deg": f"{float(camera['x_fov']):.7g}"}
+    return told
+
+
+def render(mi, scene, spp):
     """The picture as an array, (H, W, 3), linear Rec.709, in the unit of the probe."""
     import numpy as np
 
-    height = width * 2 // 3
-    scene = mi.load_file(str(scene_path), probe=str(probe_path), width=str(width), height=str(height), spp=str(spp))
+    width, height = scene.sensors()[0].film().size()
     # The vectorised variants hold all samples of a pass in memory: at most some 16 million.
     passes = min(spp, -(-spp * width * height // 2**24))
     pictures = (np.array(mi.render(scene, spp=-(-spp // passes), seed=number)) for number in range(passes))
@@ -133,6 +179,15 @@ def write_whole(path, write):
         part = Path(folder) / path.name
         write(part)
         part.replace(path)
+
+
+def write_picture(mi, picture, told, path):
+    """Writes the picture with what its header is `told`."""
+    bitmap = mi.Bitmap(picture)
+    header = bitmap.metadata()
+    for name, value in told.items():
+        header[name] = value
+    bitmap.write(str(path))
 
 
 def to_look_at(mi, picture, exposure_ev):
@@ -154,9 +209,13 @@ def main(given=None):
             probe_path = options.output.with_name(f"{options.output.stem}_probe.exr")
             make_probe(options, probe_path)
         mi = load_mitsuba(options.variant)
-        warn_of_centred_rows(mi, probe_path)
-        picture = render(mi, options.scene, probe_path.absolute(), options.width, options.spp)
-        write_whole(options.output, lambda path: mi.Bitmap(picture).write(str(path)))
+        header = header_of(mi, probe_path)
+        warn_of_centred_rows(probe_path, header)
+        luminance = white_luminance(probe_path, header)
+        scene = load_scene(mi, options.scene, probe_path.absolute(), options.width, options.spp)
+        told = describe(mi, scene, luminance)
+        picture = render(mi, scene, options.spp)
+        write_whole(options.output, lambda path: write_picture(mi, picture, told, path))
         image = options.output.with_suffix(".png")
         write_whole(image, lambda path: to_look_at(mi, picture, options.exposure).write(str(path)))
     except (ValueError, OSError) as error:

@@ -496,6 +496,51 @@ fn glare_reads_a_picture_writes_another_and_tells_what_it_did() {
 }
 
 #[test]
+fn the_scale_of_a_picture_is_carried_on_or_its_assumption_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let grey = [&b"#?RADIANCE\nEXPOSURE=0\n\n-Y 32 +X 64\n"[..], &[128, 128, 128, 129].repeat(64 * 32)].concat();
+    std::fs::write(folder.path().join("a.hdr"), grey).unwrap();
+    let run = |arguments: &[&str]| {
+        let run = tool(folder.path(), arguments);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        (text(&run.stdout), text(&run.stderr))
+    };
+    let told = "white luminance unknown: 683 cd/m2 assumed (scale blender); --white-luminance or --scale says otherwise\n";
+    let left_aside = "note: a.hdr: EXPOSURE=0: no factor of light, taken as 1\n";
+    for command in ["glare", "tonemap"] {
+        let (_, notes) = run(&[command, "a.hdr", "b.exr"]);
+        assert_eq!(notes, format!("note: a.hdr: {told}{left_aside}"));
+    }
+    // What was assumed is not written as if it were known, in neither format.
+    for glared in ["b.hdr", "b.exr"] {
+        run(&["glare", "a.hdr", glared]);
+        let (_, notes) = run(&["tonemap", glared, "b.png"]);
+        assert_eq!(notes, format!("note: {glared}: {told}"));
+    }
+    for (option, value, mean) in
+        [("--scale", "mitsuba", "72983.3310"), ("--scale", "luminance", "1.0000"), ("--white-luminance", "50", "50.0000")]
+    {
+        for glared in ["c.hdr", "c.exr"] {
+            let (report, notes) = run(&["glare", "a.hdr", glared, option, value]);
+            assert!(report.contains(&format!("mean luminance {mean} cd/m2")), "{report}");
+            assert_eq!(notes, left_aside);
+            assert_eq!(run(&["glare", glared, "d.exr"]).1, "");
+            let known = skyprobe::io::read_picture(folder.path().join("d.exr"), &Default::default()).unwrap();
+            assert!(!known.white_luminance_assumed && format!("{:.4}", known.white_luminance) == mean, "{known:?}");
+        }
+    }
+    // Once for a whole sequence.
+    std::fs::create_dir(folder.path().join("film")).unwrap();
+    std::fs::copy(folder.path().join("a.hdr"), folder.path().join("e.hdr")).unwrap();
+    assert_eq!(run(&["tonemap", "a.hdr", "e.hdr", "film"]).1, format!("note: a.hdr: {told}{left_aside}"));
+    for arguments in [&["--scale", "mitsuba", "--white-luminance", "1"][..], &["--scale", "bright"]] {
+        let refused = tool(folder.path(), &[&["glare", "a.hdr", "f.exr"], arguments].concat());
+        assert_eq!((refused.status.code(), text(&refused.stderr).lines().count()), (Some(2), 1));
+        assert!(text(&refused.stderr).contains("scale"), "{}", text(&refused.stderr));
+    }
+}
+
+#[test]
 fn pictures_are_brought_to_a_screen_one_by_one_all_ways_and_in_sequence() {
     let folder = tempfile::tempdir().unwrap();
     let run = |arguments: &[&str]| tool(folder.path(), &[&["tonemap"], arguments].concat());

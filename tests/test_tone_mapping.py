@@ -20,9 +20,9 @@ def pixels() -> numpy.ndarray:
 @pytest.mark.parametrize("operator", OPERATORS)
 def test_every_operator_gives_codes_and_light_that_belong_together(pixels: numpy.ndarray, operator: str) -> None:
     before = pixels.copy()
-    eight, report = post.tone_map(pixels, operator, projection="latlong")
-    sixteen, _ = post.tone_map(pixels, operator, projection="latlong", bits=16)
-    light, _ = post.tone_map(pixels, operator, projection="latlong", bits=None)
+    eight, report = post.tone_map(pixels, operator, projection="latlong", scale="blender")
+    sixteen, _ = post.tone_map(pixels, operator, projection="latlong", bits=16, scale="blender")
+    light, _ = post.tone_map(pixels, operator, projection="latlong", bits=None, scale="blender")
     assert (eight.dtype, sixteen.dtype, light.dtype) == (numpy.uint8, numpy.uint16, numpy.float32)
     assert eight.shape == sixteen.shape == light.shape == pixels.shape
     assert light.min() >= 0.0 and light.max() <= 1.0
@@ -34,12 +34,12 @@ def test_every_operator_gives_codes_and_light_that_belong_together(pixels: numpy
 
 
 def test_numbers_and_exposures_are_taken_and_refused_by_name(pixels: numpy.ndarray) -> None:
-    brighter, report = post.tone_map(pixels, exposure_stops=1.0, projection="latlong", bits=None)
-    plain, first = post.tone_map(pixels, projection="latlong", bits=None)
+    brighter, report = post.tone_map(pixels, exposure_stops=1.0, projection="latlong", bits=None, scale="blender")
+    plain, first = post.tone_map(pixels, projection="latlong", bits=None, scale="blender")
     assert report.ev100 == pytest.approx(first.ev100 - 1.0)
     assert brighter.mean() > plain.mean()
-    by_value, _ = post.tone_map(pixels, "linear", ev100=12.0, bits=None)
-    by_camera, report = post.tone_map(pixels, "linear", aperture=8.0, shutter_s=1 / 64, iso=100.0, bits=None)
+    by_value, _ = post.tone_map(pixels, "linear", ev100=12.0, bits=None, scale="blender")
+    by_camera, report = post.tone_map(pixels, "linear", aperture=8.0, shutter_s=1 / 64, iso=100.0, bits=None, scale="blender")
     assert report.ev100 == pytest.approx(12.0)
     numpy.testing.assert_allclose(by_value, by_camera)
     numpy.testing.assert_allclose(by_value, numpy.clip(pixels * 683.0 / (1.2 * 2.0**12), 0.0, 1.0), rtol=1e-5)
@@ -57,14 +57,14 @@ def test_numbers_and_exposures_are_taken_and_refused_by_name(pixels: numpy.ndarr
         ({"projection": "cube"}, "projection"),
     ]:
         with pytest.raises(sp.InputError) as caught:
-            post.tone_map(pixels, **keywords)
+            post.tone_map(pixels, scale="blender", **keywords)
         assert str(caught.value).startswith(message), str(caught.value)
 
 
 def test_what_no_light_can_be_is_repaired_and_counted(pixels: numpy.ndarray) -> None:
     broken = pixels.copy()
     broken[3, 4] = [numpy.nan, numpy.inf, 1e-42]
-    shown, report = post.tone_map(broken, projection="latlong")
+    shown, report = post.tone_map(broken, projection="latlong", scale="blender")
     assert report.repairs == (1, 1, 1)
     assert numpy.isnan(broken[3, 4, 0])
 
@@ -76,11 +76,11 @@ def test_a_film_of_a_dusk_does_not_flicker(pixels: numpy.ndarray) -> None:
     found = []
     for frame in range(60):
         dimmed = pixels * numpy.float32(0.8**frame * generator.uniform(0.95, 1.05))
-        found.append(eye.step(post.auto_exposure(dimmed, projection="latlong").adaptation, 1 / 24))
+        found.append(eye.step(post.auto_exposure(dimmed, projection="latlong", scale="blender").adaptation, 1 / 24))
     assert eye.luminance == found[-1]
     changes = numpy.diff(numpy.log(found))
     assert (changes[12:] < 0.0).all() and numpy.abs(numpy.diff(changes[12:])).max() < 0.01
-    shown, report = post.tone_map(pixels, adaptation=found[-1], projection="latlong")
+    shown, report = post.tone_map(pixels, adaptation=found[-1], projection="latlong", scale="blender")
     assert report.adaptation == pytest.approx(found[-1])
     eye.reset()
     assert eye.luminance is None
@@ -91,7 +91,7 @@ def test_a_film_of_a_dusk_does_not_flicker(pixels: numpy.ndarray) -> None:
 
 def test_meters_know_luminance_and_exposure() -> None:
     even = numpy.full((32, 64, 3), 6.0, dtype=numpy.float32)
-    meter = post.auto_exposure(even, projection="latlong")
+    meter = post.auto_exposure(even, projection="latlong", scale="blender")
     assert meter.log_average == pytest.approx(6.0 * 683.0, rel=1e-5)
     assert meter.bright == meter.lowest == meter.highest == pytest.approx(meter.adaptation, rel=1e-5)
     assert meter.meter_ev100 == pytest.approx(numpy.log2(6.0 * 683.0 * 100.0 / 12.5), abs=1e-4)

@@ -30,6 +30,7 @@ Errors
 ------
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
 ``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
+:class:`ScaleWarning` says that the luminance of a picture had to be assumed.
 """
 
 from . import places
@@ -49,6 +50,7 @@ from ._core import (
     PolarisingFilter,
     Probe,
     RiseAndSet,
+    ScaleWarning,
     Sky,
     SolarEclipse,
     SunEvents,
@@ -71,6 +73,7 @@ __all__ = [
     "PolarisingFilter",
     "Probe",
     "RiseAndSet",
+    "ScaleWarning",
     "Sky",
     "SolarEclipse",
     "SunEvents",

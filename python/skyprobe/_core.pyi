@@ -63,6 +63,7 @@ __all__ = [
     "PolarisingFilter",
     "Probe",
     "RiseAndSet",
+    "ScaleWarning",
     "Sky",
     "SolarEclipse",
     "SunEvents",
@@ -93,6 +94,9 @@ class DataError(RuntimeError):
 
 class Cancelled(Exception):
     """The progress callback returned False; nothing was left behind."""
+
+class ScaleWarning(UserWarning):
+    """The luminance that a picture's numbers stand for was not said, and had to be assumed: glare and tone mapping depend on it."""
 
 @final
 class Phase:
@@ -1312,7 +1316,8 @@ def glare(
     projection: str = "perspective",
     field_of_view_deg: float | None = None,
     rows: str = "centre",
-    white_luminance: float = 683.0,
+    scale: _Scale | None = None,
+    white_luminance: float | None = None,
     color_space: str = "lin_rec709",
     state: str = "auto",
     threshold: float | None = None,
@@ -1335,8 +1340,10 @@ def glare(
         Of a perspective picture the angle between left and right border (39.6 by default, as Blender's first camera), of a fisheye that of its width (180). [degrees]
     rows
         Of a latlong picture: "centre" or "corner".
+    scale
+        What the numbers are, "blender", "mitsuba" or "luminance", as ``Probe.scale`` says it. Without it and ``white_luminance`` it is "blender", with a ``ScaleWarning``.
     white_luminance
-        Luminance of a pixel of value 1: 683 in the scale "blender", 1 in "luminance". [cd m-2]
+        Instead of ``scale``: luminance of a pixel of value 1, 683 in the scale "blender", 72983 in "mitsuba". [cd m-2]
     color_space
         "lin_rec709", "acescg", "lin_rec2020" or "xyz".
     state
@@ -1470,7 +1477,8 @@ def tone_map(
     projection: str = "perspective",
     field_of_view_deg: float | None = None,
     rows: str = "centre",
-    white_luminance: float = 683.0,
+    scale: _Scale | None = None,
+    white_luminance: float | None = None,
     color_space: str = "lin_rec709",
     progress: _Progress | None = None,
     **numbers: float,
@@ -1496,7 +1504,7 @@ def tone_map(
         What shows the picture.
     bits
         8 (uint8, dithered; the default), 16 (uint16), or None for the light of the screen, float32 from 0 to 1.
-    projection, field_of_view_deg, rows, white_luminance, color_space
+    projection, field_of_view_deg, rows, scale, white_luminance, color_space
         As for ``glare``.
     progress
         ``progress(stage, fraction)``; returning False raises ``Cancelled``.
@@ -1511,7 +1519,8 @@ def auto_exposure(
     projection: str = "perspective",
     field_of_view_deg: float | None = None,
     rows: str = "centre",
-    white_luminance: float = 683.0,
+    scale: _Scale | None = None,
+    white_luminance: float | None = None,
     color_space: str = "lin_rec709",
 ) -> Metering:
     """Meter a picture: its luminances, and the exposure that suits them. Parameters as for ``glare``."""

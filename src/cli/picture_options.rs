@@ -1,9 +1,13 @@
 //! Options of commands that finish a picture: what the file does not say of it.
 
+use super::complain;
 use crate::error::{Error, Result};
 use crate::io::{PictureHints, PictureLimits, check_output, read_picture};
 use crate::post::{Picture, Repairs};
+use crate::units::Scale;
 use clap::Args;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 const PICTURE: &str = "Picture";
@@ -21,15 +25,21 @@ pub struct PictureOptions {
     /// Rows of a latlong picture: centre (Blender) or corner (Mitsuba). Default: what the header says, else centre.
     #[arg(long, value_name = "NAME", help_heading = PICTURE)]
     rows: Option<String>,
-    /// Luminance of a pixel of value 1 [cd m-2]. Default: what the header says, else 683 (the scale blender).
+    /// Luminance of a pixel of value 1 [cd m-2]. Default: what the header says, else 683 (the scale blender), which is told.
     #[arg(long, value_name = "CD", help_heading = PICTURE)]
     white_luminance: Option<f64>,
+    /// The same by the name of a scale: blender (683), mitsuba (72983) or luminance (1).
+    #[arg(long, value_name = "NAME", conflicts_with = "white_luminance", help_heading = PICTURE)]
+    scale: Option<String>,
     /// Space of the pixels: lin_rec709, acescg, lin_rec2020 or xyz. Default: what the header says, else lin_rec709.
     #[arg(long, value_name = "NAME", help_heading = PICTURE)]
     color_space: Option<String>,
     /// Largest picture to read, above 0 to 1073.741824 [million pixels]; a million take some 25 MB of memory. Default: 256.
     #[arg(long, value_name = "MILLIONS", help_heading = PICTURE)]
     max_megapixels: Option<f64>,
+    /// The notes that were told.
+    #[arg(skip)]
+    told: RefCell<BTreeSet<String>>,
 }
 
 impl PictureOptions {
@@ -42,7 +52,10 @@ impl PictureOptions {
             projection: self.projection.as_deref().map(str::parse).transpose()?,
             rows: self.rows.as_deref().map(str::parse).transpose()?,
             field_of_view_deg: self.fov,
-            white_luminance: self.white_luminance,
+            white_luminance: match &self.scale {
+                Some(name) => Some(name.parse::<Scale>()?.white_luminance()),
+                None => self.white_luminance,
+            },
             color_space: self.color_space.as_deref().map(str::parse).transpose()?,
             limits,
         })
@@ -60,7 +73,20 @@ impl PictureOptions {
             }
             other => other,
         })?;
-        read_picture(input, &hints)
+        let picture = read_picture(input, &hints)?;
+        self.tell(input, &picture);
+        Ok(picture)
+    }
+
+    /// Says what of the picture was assumed and what was left aside: each once, whatever the number of pictures.
+    fn tell(&self, input: &Path, picture: &Picture) {
+        let assumption = picture.assumption().map(|text| format!("{text}; --white-luminance or --scale says otherwise"));
+        let mut told = self.told.borrow_mut();
+        for note in assumption.iter().chain(&picture.notes) {
+            if told.insert(note.clone()) {
+                complain(&format!("note: {}: {note}", input.display()));
+            }
+        }
     }
 }
 

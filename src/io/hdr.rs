@@ -5,15 +5,16 @@
 //! Radiance itself adds half a step and so reads pixels brighter by that. Negative components cannot be written and become 0.
 //! Rows are run-length encoded one component after the other.
 
+mod fields;
 mod read;
+mod rows;
+mod write;
 
-pub(super) use read::read_rgb;
+pub use read::header_fields;
+pub(super) use read::{read_rgb, read_rgb_bytes};
+pub(super) use write::{header, picture_header};
 
-use super::metadata::Metadata;
-use crate::probe::ProbeSettings;
-use crate::spectrum::ColorSpace;
 use rayon::prelude::*;
-use std::fmt::Write as _;
 
 /// The bytes of a linear colour.
 ///
@@ -54,52 +55,6 @@ pub(super) fn encode_rows(width: usize, pixels: &[f32]) -> Vec<Vec<u8>> {
         packed
     };
     pixels.par_chunks(3 * width).map(encode_row).collect()
-}
-
-/// All that comes before the rows.
-pub(super) fn header(settings: &ProbeSettings, metadata: &Metadata) -> String {
-    let mut text = String::from("#?RADIANCE\n");
-    let mut line = |name: &str, value: &dyn std::fmt::Display| {
-        let value = value.to_string().replace(['\n', '\r'], " ");
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{name}={value}");
-    };
-    line("SOFTWARE", &format!("skyprobe {}", env!("CARGO_PKG_VERSION")));
-    if let Some(date) = &metadata.capture_date {
-        line("CAPDATE", date);
-    }
-    if let (Some(latitude), Some(longitude)) = (metadata.latitude_deg, metadata.longitude_deg) {
-        line("LATLONG", &format!("{latitude:.6} {longitude:.6}"));
-    }
-    for (name, value) in super::own_fields(settings, metadata) {
-        line(&name, &value);
-    }
-    if let Some(comments) = &metadata.comments {
-        line("COMMENT", comments);
-    }
-    text + &values(settings.color_space, (settings.width, settings.height()))
-}
-
-/// The same for a picture of `size` with its own `fields`.
-pub(super) fn picture_header(color_space: ColorSpace, size: (usize, usize), fields: &[(String, String)]) -> String {
-    let mut text = format!("#?RADIANCE\nSOFTWARE=skyprobe {}\n", env!("CARGO_PKG_VERSION"));
-    for (name, value) in fields {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{name}={}", value.replace(['\n', '\r'], " "));
-    }
-    text + &values(color_space, size)
-}
-
-/// The end of every header: what values are, and how many.
-fn values(color_space: ColorSpace, (width, height): (usize, usize)) -> String {
-    let (primaries, format) = if color_space == ColorSpace::Xyz {
-        (String::new(), "32-bit_rle_xyze")
-    } else {
-        let c = color_space.chromaticities();
-        let numbers = [c.red, c.green, c.blue, c.white].map(|[x, y]| format!("{x:.5} {y:.5}")).join(" ");
-        (format!("PRIMARIES={numbers}\n"), "32-bit_rle_rgbe")
-    };
-    format!("{primaries}EXPOSURE=1\nFORMAT={format}\n\n-Y {height} +X {width}\n")
 }
 
 /// Appends one component of a row: runs of 4 to 127 equal bytes as (128 + count, byte), others as (count, bytes...).

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// Most pixels of any picture [millions]: [`MAX_SIDE`] squared.
-const ALL_MEGAPIXELS: f64 = (MAX_SIDE * MAX_SIDE) as f64 / 1e6;
+pub(super) const ALL_MEGAPIXELS: f64 = (MAX_SIDE * MAX_SIDE) as f64 / 1e6;
 
 /// Bounds of what the readers of pictures take from a file before they refuse it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,13 +3,13 @@
 //! | what | where it comes from, first that is there |
 //! |---|---|
 //! | colour space | the caller; channels X Y Z or chromaticities (EXR), PRIMARIES or FORMAT (HDR), if they make a space; Rec. 709. Primaries of none of our spaces are converted to Rec. 709 |
-//! | luminance of 1.0 | the caller; `skyprobe.white_luminance`, `whiteLuminance`, if they are positive; `skyprobe.scale`; 683 cd m-2, as Blender's physical sky |
+//! | luminance of 1.0 | the caller; `skyprobe.white_luminance`, `whiteLuminance`, `skyprobe.scale`, the first that can be one; 683 cd m-2, as Blender's physical sky, which [`Picture::assumption`] tells |
 //! | projection | the caller; `envmap` (EXR); `skyprobe.projection`; perspective, also for 2:1 |
 //! | rows, field of view | the caller; `skyprobe.rows`, `skyprobe.field_of_view_deg`; centre, and 39.6 degrees, Blender's first camera |
 
 use super::{PictureLimits, exr, hdr};
 use crate::error::{Error, Result};
-use crate::post::picture::{DEFAULT_FIELD_OF_VIEW_DEG, PictureProjection};
+use crate::post::picture::{DEFAULT_FIELD_OF_VIEW_DEG, PictureProjection, WHITE_LUMINANCES};
 use crate::post::{Picture, View};
 use crate::probe::{Extent, Rows};
 use crate::spectrum::color_space::transform;
@@ -28,6 +28,8 @@ pub(super) struct Raw {
     pub chromaticities: Option<Chromaticities>,
     /// Texts and numbers of the header by name.
     pub fields: BTreeMap<String, String>,
+    /// What of the header could not be understood and was left aside, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// What the caller knows better than the file.
@@ -63,7 +65,7 @@ pub fn read_picture(path: impl AsRef<Path>, hints: &PictureHints) -> Result<Pict
     picture(path, raw, hints)
 }
 
-/// Does what [`read_picture`] does with the bytes of an EXR file.
+/// Reads the content of an EXR file, as [`read_picture`] does.
 ///
 /// # Errors
 /// As [`read_picture`]; messages call the file `exr`.
@@ -72,14 +74,20 @@ pub fn read_exr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
     picture(path, exr::parse_rgb(path, bytes, &hints.limits)?, hints)
 }
 
+/// Reads the content of a Radiance file, as [`read_picture`] does.
+///
+/// # Errors
+/// As [`read_picture`]; messages call the file `hdr`.
+pub fn read_hdr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
+    picture(Path::new("hdr"), hdr::read_rgb_bytes(bytes, &hints.limits)?, hints)
+}
+
 /// What a file holds, with its meaning.
 fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
     let raw = map_of_directions(path, raw, hints)?;
     let view = view(&raw.fields, hints)?;
-    let white_luminance = match hints.white_luminance {
-        Some(luminance) => luminance,
-        None => white_luminance(&raw.fields)?,
-    };
+    let mut notes = raw.notes;
+    let known = hints.white_luminance.or_else(|| white_luminance(&raw.fields, &mut notes));
     let mut pixels = raw.pixels;
     let color_space = match (hints.color_space, raw.chromaticities) {
         (Some(space), _) => space,
@@ -89,7 +97,9 @@ fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
             ColorSpace::LinRec709
         }),
     };
-    Picture::new(raw.width, raw.height, pixels, color_space, white_luminance, view)
+    let luminance = known.unwrap_or(Scale::default().white_luminance());
+    let picture = Picture::new(raw.width, raw.height, pixels, color_space, luminance, view)?;
+    Ok(Picture { white_luminance_assumed: known.is_none(), notes, ..picture })
 }
 
 /// A picture with the standard attribute `envmap` as a latitude-longitude picture of ours, unless the caller knows it for another.
@@ -136,18 +146,20 @@ fn view(fields: &BTreeMap<String, String>, hints: &PictureHints) -> Result<View>
     Ok(projection.view(rows, hints.field_of_view_deg.or(of_file).unwrap_or(default)))
 }
 
-fn white_luminance(fields: &BTreeMap<String, String>) -> Result<f64> {
-    for name in ["skyprobe.white_luminance", "whiteLuminance"] {
-        // One that no light has says nothing.
-        if let Some(luminance) = fields.get(name).map(|text| number(name, text)).transpose()?
-            && luminance.is_finite()
-            && luminance > 0.0
-        {
-            return Ok(luminance);
+/// The luminance of 1.0 that the header says [cd m-2]; what cannot be one counts as not said, with a note.
+fn white_luminance(fields: &BTreeMap<String, String>, notes: &mut Vec<String>) -> Option<f64> {
+    let said = |name: &str| match name {
+        "skyprobe.scale" => fields.get(name)?.parse::<Scale>().ok().map(Scale::white_luminance),
+        _ => fields.get(name)?.trim().parse().ok().filter(|luminance| WHITE_LUMINANCES.contains(luminance)),
+    };
+    for name in ["skyprobe.white_luminance", "whiteLuminance", "skyprobe.scale"] {
+        match (said(name), fields.get(name)) {
+            (Some(luminance), _) => return Some(luminance),
+            (None, Some(text)) => notes.push(format!("{name}={text}: says no luminance, left aside")),
+            (None, None) => {}
         }
     }
-    let scale = fields.get("skyprobe.scale").map(|name| name.parse::<Scale>()).transpose()?.unwrap_or_default();
-    Ok(scale.white_luminance())
+    None
 }
 
 fn number(name: &str, text: &str) -> Result<f64> {

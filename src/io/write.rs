@@ -94,8 +94,11 @@ fn fields(picture: &Picture) -> Vec<(String, String)> {
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("color_space", picture.color_space.name().to_owned()),
         ("projection", picture.view.projection().name().to_owned()),
-        ("white_luminance", picture.white_luminance.to_string()),
     ];
+    // An assumption is no fact.
+    if !picture.white_luminance_assumed {
+        fields.push(("white_luminance", picture.white_luminance.to_string()));
+    }
     match picture.view {
         View::LatLong { rows } => fields.push(("rows", rows.name().to_owned())),
         View::Perspective { horizontal_field_of_view_deg: angle } | View::Fisheye { field_of_view_deg: angle } => {

@@ -142,9 +142,19 @@ pub struct Picture {
     pub color_space: ColorSpace,
     /// Luminance of a pixel whose Y is 1 [cd m-2]; see [`Scale::white_luminance`].
     pub white_luminance: f64,
+    /// Whether `white_luminance` was assumed, because nothing said it: then no file says it either.
+    pub white_luminance_assumed: bool,
     /// Where the pixels look.
     pub view: View,
+    /// What the header that it came with says and nobody understands, so that it was left aside, a sentence each.
+    pub notes: Vec<String>,
 }
+
+/// What is assumed of a picture that does not say it: the default of [`Scale`].
+pub(crate) const ASSUMPTION: &str = "white luminance unknown: 683 cd/m2 assumed (scale blender)";
+
+/// The range of `white_luminance` [cd m-2].
+pub(crate) const WHITE_LUMINANCES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 impl Picture {
     /// A picture of given `pixels`, row-major (height, width, 3).
@@ -164,7 +174,7 @@ impl Picture {
                 return Err(Error::input(name, side, format!("from 1 to {MAX_SIDE} pixels")));
             }
         }
-        check_range("white_luminance", white_luminance, 1e-9, 1e9, "cd m-2")?;
+        check_range("white_luminance", white_luminance, *WHITE_LUMINANCES.start(), *WHITE_LUMINANCES.end(), "cd m-2")?;
         match view {
             View::LatLong { .. } => {}
             View::Perspective { horizontal_field_of_view_deg: angle } => {
@@ -181,7 +191,12 @@ impl Picture {
                 3 * width * height
             )));
         }
-        Ok(Self { width, height, pixels, color_space, white_luminance, view })
+        Ok(Self { width, height, pixels, color_space, white_luminance, white_luminance_assumed: false, view, notes: Vec::new() })
+    }
+
+    /// What is to be told of a luminance that had to be assumed; `None` if it was said.
+    pub fn assumption(&self) -> Option<&'static str> {
+        self.white_luminance_assumed.then_some(ASSUMPTION)
     }
 
     /// Makes every value one that light can have, so that none spreads over the picture, and says how many were not.
@@ -214,7 +229,16 @@ impl From<Probe> for Picture {
         let settings = &probe.settings;
         let view = View::of(settings);
         let (color_space, white_luminance) = (settings.color_space, Scale::white_luminance(settings.scale));
-        Self { width: probe.width, height: probe.height, pixels: probe.pixels, color_space, white_luminance, view }
+        Self {
+            width: probe.width,
+            height: probe.height,
+            pixels: probe.pixels,
+            color_space,
+            white_luminance,
+            white_luminance_assumed: false,
+            view,
+            notes: Vec::new(),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The crate's errors as Python exceptions.
 
 use crate::error::Error;
-use pyo3::exceptions::{PyException, PyOSError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyException, PyOSError, PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, create_exception};
 
 create_exception!(
@@ -12,6 +12,12 @@ create_exception!(
 );
 create_exception!(skyprobe, DataError, PyRuntimeError, "A table or file whose content cannot be used.");
 create_exception!(skyprobe, Cancelled, PyException, "The progress callback returned False; nothing was left behind.");
+create_exception!(
+    skyprobe,
+    ScaleWarning,
+    PyUserWarning,
+    "The luminance that a picture's numbers stand for was not said, and had to be assumed: glare and tone mapping depend on it."
+);
 
 impl From<Error> for PyErr {
     fn from(error: Error) -> Self {

@@ -1,13 +1,16 @@
 //! What is done to finished pictures: arrays in, arrays out.
 
 use super::arrays;
-use super::errors::InputError;
+use super::errors::{InputError, ScaleWarning};
 use super::work;
 use crate::post::glare::{AdaptationState, GlareOptions, GlareReport, Glaring, glare as add_glare, point_spread};
+use crate::post::picture::ASSUMPTION;
 use crate::post::{Picture, PictureProjection};
+use crate::units::Scale;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
+use std::ffi::CString;
 
 /// What ``glare`` did to a picture.
 #[pyclass(frozen, name = "GlareReport", module = "skyprobe.post")]
@@ -77,9 +80,20 @@ pub fn picture(
     pixels: &Bound<'_, PyAny>,
     projection: &str,
     (rows, field_of_view_deg): (&str, Option<f64>),
-    (white_luminance, color_space): (f64, &str),
+    (white_luminance, scale): (Option<f64>, Option<&str>),
+    color_space: &str,
 ) -> PyResult<Picture> {
     let py = pixels.py();
+    let white_luminance = match (white_luminance, scale.map(str::parse::<Scale>).transpose()?) {
+        (Some(_), Some(scale)) => return Err(InputError::new_err(format!("scale = {scale}: must be None with white_luminance"))),
+        (Some(luminance), None) => luminance,
+        (None, Some(scale)) => scale.white_luminance(),
+        (None, None) => {
+            let message = CString::new(format!("{ASSUMPTION}; scale= or white_luminance= says otherwise"))?;
+            PyErr::warn(py, &py.get_type::<ScaleWarning>(), &message, 1)?;
+            Scale::default().white_luminance()
+        }
+    };
     let keywords = [("dtype", "float32")].into_py_dict(py)?;
     let wrong = |reason: String| InputError::new_err(format!("pixels = {reason}: must be an array of shape (H, W, 3)"));
     let array = py
@@ -112,8 +126,10 @@ pub fn picture(
 ///     Of a perspective picture the angle between left and right border (39.6 by default, as Blender's first camera), of a fisheye that of its width (180). [degrees]
 /// rows
 ///     Of a latlong picture: "centre" or "corner".
+/// scale
+///     What the numbers are, "blender", "mitsuba" or "luminance", as ``Probe.scale`` says it. Without it and ``white_luminance`` it is "blender", with a ``ScaleWarning``.
 /// white_luminance
-///     Luminance of a pixel of value 1: 683 in the scale "blender", 1 in "luminance". [cd m-2]
+///     Instead of ``scale``: luminance of a pixel of value 1, 683 in the scale "blender", 72983 in "mitsuba". [cd m-2]
 /// color_space
 ///     "lin_rec709", "acescg", "lin_rec2020" or "xyz".
 /// state
@@ -133,8 +149,8 @@ pub fn picture(
 /// progress
 ///     ``progress(stage, fraction)``; returning False raises ``Cancelled``.
 #[pyfunction]
-#[pyo3(signature = (pixels, *, projection = "perspective", field_of_view_deg = None, rows = "centre", white_luminance = 683.0,
-    color_space = "lin_rec709", state = "auto", threshold = None, whole_pixels = false, all_light = false, size = 2.0, seed = 0,
+#[pyo3(signature = (pixels, *, projection = "perspective", field_of_view_deg = None, rows = "centre", scale = None,
+    white_luminance = None, color_space = "lin_rec709", state = "auto", threshold = None, whole_pixels = false, all_light = false, size = 2.0, seed = 0,
     streaks = 0.6, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 pub fn glare<'py>(
@@ -143,7 +159,8 @@ pub fn glare<'py>(
     projection: &str,
     field_of_view_deg: Option<f64>,
     rows: &str,
-    white_luminance: f64,
+    scale: Option<&str>,
+    white_luminance: Option<f64>,
     color_space: &str,
     state: &str,
     threshold: Option<f64>,
@@ -167,7 +184,7 @@ pub fn glare<'py>(
     let state = if state == "auto" { None } else { Some(state.parse::<AdaptationState>()?) };
     let options = GlareOptions { state, glaring, size, seed, streaks };
     options.validate()?;
-    let mut picture = picture(pixels, projection, (rows, field_of_view_deg), (white_luminance, color_space))?;
+    let mut picture = picture(pixels, projection, (rows, field_of_view_deg), (white_luminance, scale), color_space)?;
     let inner = work::run(py, progress, |progress| add_glare(&mut picture, &options, progress))?;
     let shape = [picture.height, picture.width, 3];
     Ok((PyArray1::from_vec(py, picture.pixels).reshape(shape)?, Report { inner }))

@@ -188,7 +188,7 @@ enum Shown {
 ///     What shows the picture.
 /// bits
 ///     8 (uint8, dithered; the default), 16 (uint16), or None for the light of the screen, float32 from 0 to 1.
-/// projection, field_of_view_deg, rows, white_luminance, color_space
+/// projection, field_of_view_deg, rows, scale, white_luminance, color_space
 ///     As for ``glare``.
 /// progress
 ///     ``progress(stage, fraction)``; returning False raises ``Cancelled``.
@@ -197,7 +197,7 @@ enum Shown {
 ///     sharpening, threshold, scales; ashikhmin: threshold, largest_scale, stretch; logarithmic: white, middle; linear: white.
 #[pyfunction]
 #[pyo3(signature = (pixels, operator = "sky", *, exposure_stops = 0.0, ev100 = None, aperture = None, shutter_s = None, iso = 100.0, adaptation = None,
-    display = "srgb", bits = Some(8), projection = "perspective", field_of_view_deg = None, rows = "centre", white_luminance = 683.0,
+    display = "srgb", bits = Some(8), projection = "perspective", field_of_view_deg = None, rows = "centre", scale = None, white_luminance = None,
     color_space = "lin_rec709", progress = None, **numbers))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 pub fn tone_map<'py>(
@@ -215,7 +215,8 @@ pub fn tone_map<'py>(
     projection: &str,
     field_of_view_deg: Option<f64>,
     rows: &str,
-    white_luminance: f64,
+    scale: Option<&str>,
+    white_luminance: Option<f64>,
     color_space: &str,
     progress: Option<&Bound<'py, PyAny>>,
     numbers: Option<&Bound<'py, PyDict>>,
@@ -244,7 +245,7 @@ pub fn tone_map<'py>(
     }
     let settings = ToneMapping { operator, exposure, adaptation, display: display.parse()? };
     settings.validate()?;
-    let mut picture = post::picture(pixels, projection, (rows, field_of_view_deg), (white_luminance, color_space))?;
+    let mut picture = post::picture(pixels, projection, (rows, field_of_view_deg), (white_luminance, scale), color_space)?;
     let (shown, report) = work::run(py, progress, |progress| {
         let repairs = picture.repair();
         let mapper = ToneMapper::new(&picture, &settings, progress)?;
@@ -268,16 +269,18 @@ pub fn tone_map<'py>(
 
 /// Meter a picture: its luminances, and the exposure that suits them. Parameters as for ``glare``.
 #[pyfunction]
-#[pyo3(signature = (pixels, *, projection = "perspective", field_of_view_deg = None, rows = "centre", white_luminance = 683.0, color_space = "lin_rec709"))]
+#[pyo3(signature = (pixels, *, projection = "perspective", field_of_view_deg = None, rows = "centre", scale = None, white_luminance = None, color_space = "lin_rec709"))]
+#[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 pub fn auto_exposure(
     py: Python<'_>,
     pixels: &Bound<'_, PyAny>,
     projection: &str,
     field_of_view_deg: Option<f64>,
     rows: &str,
-    white_luminance: f64,
+    scale: Option<&str>,
+    white_luminance: Option<f64>,
     color_space: &str,
 ) -> PyResult<Metering> {
-    let picture = post::picture(pixels, projection, (rows, field_of_view_deg), (white_luminance, color_space))?;
+    let picture = post::picture(pixels, projection, (rows, field_of_view_deg), (white_luminance, scale), color_space)?;
     work::run(py, None, |_| Ok(Metering { inner: tone::Metering::of(&Frame::from(&picture)) }))
 }

@@ -41,7 +41,7 @@ def glare(out_path=None, **options):
     image = bpy.data.images[finish.IMAGE_NAME]
     glared = steps.pixels_of(image)
     view = finish.view_of(scene)
-    expected, report = post.glare(rendered, **view, state=options.get("state", "auto"), seed=options.get("seed", 0))
+    expected, report = post.glare(rendered, **view, scale="blender", state=options.get("state", "auto"), seed=options.get("seed", 0))
     again = sorted(bpy.ops.skyprobe.glare(**options))
     if out_path:
         np.save(out_path, np.stack([rendered, glared]))
@@ -72,7 +72,7 @@ def tone_mapped():
     for name, *_ in finish.TONES[1:]:
         bpy.ops.skyprobe.glare(tone=name, exposure_stops=-1.0)
         light = steps.pixels_of(bpy.data.images[finish.IMAGE_NAME])
-        expected, _ = post.tone_map(light, name, exposure_stops=-1.0, **view)
+        expected, _ = post.tone_map(light, name, exposure_stops=-1.0, scale="blender", **view)
         shown = bpy.data.images[finish.SCREEN_IMAGE_NAME]
         differences[name] = float(np.abs(steps.pixels_of(shown) * 255.0 - expected).max())
     return {"differences": differences, "is_float": shown.is_float, "color_space": shown.colorspace_settings.name}

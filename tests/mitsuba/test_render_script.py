@@ -7,6 +7,7 @@ import mitsuba as mi
 import numpy as np
 import pytest
 import render_scene
+import skyprobe as sp
 
 SCRIPT = render_scene.ROOT / "mitsuba_scenes" / "render.py"
 SMALL = ["--width", "96", "--spp", "4", "--probe-width", "128", "--quality", "draft"]
@@ -14,6 +15,11 @@ SMALL = ["--width", "96", "--spp", "4", "--probe-width", "128", "--quality", "dr
 
 def run(*given):
     return subprocess.run([sys.executable, SCRIPT, *map(str, given)], capture_output=True, text=True, timeout=300)
+
+
+def skyprobe(*given):
+    """The command line tool."""
+    return subprocess.run([sys.executable, "-m", "skyprobe", *map(str, given)], capture_output=True, text=True, timeout=300)
 
 
 def read(path):
@@ -52,6 +58,36 @@ def test_centred_rows_are_pointed_out(probe, tmp_path):
     answer = run("--probe", path, "--output", tmp_path / "picture.exr", "--variant", "scalar_rgb", *SMALL)
     assert answer.returncode == 0
     assert "rows in the centre" in answer.stderr
+
+
+def test_glare_knows_how_bright_the_picture_is_and_how_wide_it_looks(tmp_path):
+    sky = sp.Sky.with_sun(altitude_deg=40.0, azimuth_deg=215.0, atmosphere=sp.Atmosphere(quality="draft"))
+    means = {}
+    for name, scale in (("a.exr", "mitsuba"), ("b.hdr", "mitsuba"), ("c.exr", "blender"), ("d.hdr", "luminance")):
+        sky.render(width=128, rows="corner", scale=scale).save(tmp_path / name)
+        answer = run("--probe", tmp_path / name, "--output", tmp_path / "picture.exr", "--variant", "scalar_rgb", *SMALL)
+        assert (answer.returncode, answer.stderr) == (0, "")
+        told = skyprobe("glare", tmp_path / "picture.exr", tmp_path / "glared.exr")
+        assert (told.returncode, told.stderr) == (0, "")
+        assert "perspective, 40 degrees" in told.stdout
+        means[name] = float(told.stdout.partition("mean luminance ")[2].split()[0])
+        told = skyprobe("tonemap", tmp_path / "glared.exr", tmp_path / "shown.png")
+        assert (told.returncode, told.stderr) == (0, "")
+        if name == "a.exr":
+            luminance = 72983.331 * (read(tmp_path / "picture.exr") @ np.array([0.2126, 0.7152, 0.0722]))
+            assert means[name] == pytest.approx(np.exp(np.log(luminance[luminance > 0.0]).mean()), rel=2e-3)
+    # Daylight, the same in every scale; half a step of 256 in the HDR.
+    assert 1e3 < means["a.exr"] < 1e5
+    assert list(means.values()) == pytest.approx([means["a.exr"]] * 4, rel=0.01)
+
+
+def test_a_probe_without_scale_gives_a_picture_without(write_pixels, tmp_path):
+    write_pixels(tmp_path / "sky.exr", np.ones((16, 32, 3)))
+    answer = run("--probe", tmp_path / "sky.exr", "--output", tmp_path / "picture.exr", "--variant", "scalar_rgb", *SMALL)
+    assert answer.returncode == 0
+    assert "does not say its scale" in answer.stderr
+    told = skyprobe("glare", tmp_path / "picture.exr", tmp_path / "glared.exr")
+    assert "683 cd/m2 assumed" in told.stderr
 
 
 @pytest.mark.parametrize(

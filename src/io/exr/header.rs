@@ -61,7 +61,8 @@ pub fn picture_header(picture: &Picture, fields: Vec<(String, String)>, packing:
     let mut attributes = Attributes(BTreeMap::new());
     put_layout(&mut attributes, packing);
     let wrap_modes = if matches!(picture.view, View::LatLong { .. }) { "periodic,clamp" } else { "black" };
-    put_values(&mut attributes, picture.color_space, picture.white_luminance, wrap_modes);
+    let white_luminance = (!picture.white_luminance_assumed).then_some(picture.white_luminance);
+    put_values(&mut attributes, picture.color_space, white_luminance, wrap_modes);
     for (name, value) in fields {
         attributes.text(&name, &value);
     }
@@ -69,10 +70,12 @@ pub fn picture_header(picture: &Picture, fields: Vec<(String, String)>, packing:
 }
 
 /// What values and borders of every picture are.
-fn put_values(attributes: &mut Attributes, color_space: ColorSpace, white_luminance: f64, wrap_modes: &str) {
+fn put_values(attributes: &mut Attributes, color_space: ColorSpace, white_luminance: Option<f64>, wrap_modes: &str) {
     let space = color_space.chromaticities();
     attributes.floats("chromaticities", "chromaticities", &[space.red, space.green, space.blue, space.white].concat());
-    attributes.float("whiteLuminance", white_luminance);
+    if let Some(luminance) = white_luminance {
+        attributes.float("whiteLuminance", luminance);
+    }
     attributes.text("wrapmodes", wrap_modes);
     attributes.text("software", concat!("skyprobe ", env!("CARGO_PKG_VERSION")));
     if color_space != ColorSpace::Xyz {
@@ -107,7 +110,8 @@ fn put_meaning(attributes: &mut Attributes, settings: &ProbeSettings, metadata: 
         Projection::LatLong => "periodic,clamp",
         Projection::Fisheye => "black",
     };
-    put_values(attributes, settings.color_space, settings.scale.white_luminance() / f64::from(scale), wrap_modes);
+    let white_luminance = settings.scale.white_luminance() / f64::from(scale);
+    put_values(attributes, settings.color_space, Some(white_luminance), wrap_modes);
     let places = [("latitude", metadata.latitude_deg), ("longitude", metadata.longitude_deg), ("altitude", metadata.elevation_m)];
     // OpenEXR: UTC = local time + utcOffset.
     for (name, value) in places.into_iter().chain([("utcOffset", metadata.utc_offset_s.map(|value| -value))]) {

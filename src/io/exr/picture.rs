@@ -61,7 +61,7 @@ pub fn parse_rgb(path: &Path, reader: impl Read + Seek, limits: &PictureLimits, 
     };
     let (width, height) = window.size();
     let chromaticities = if found.colours == Colours::Xyz { Some(ColorSpace::Xyz.chromaticities()) } else { primaries };
-    Ok(Raw { width: width as usize, height: height as usize, pixels, chromaticities, fields: part.texts.clone() })
+    Ok(Raw { width: width as usize, height: height as usize, pixels, chromaticities, fields: part.texts.clone(), notes: Vec::new() })
 }
 
 /// Memory is taken for what is within the limits and, in a large picture, not for nothing.

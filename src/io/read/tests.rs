@@ -221,6 +221,29 @@ fn unknown_primaries_are_converted() {
 }
 
 #[test]
+fn a_white_luminance_that_is_none_counts_as_not_said() {
+    let picture = |header: &str| {
+        let bytes = [b"#?RADIANCE\n", header.as_bytes(), b"\n-Y 1 +X 1\n", &[128, 128, 128, 129]].concat();
+        read_hdr_bytes(&bytes, &PictureHints::default()).unwrap()
+    };
+    for (header, luminance, notes) in [
+        ("skyprobe.white_luminance=20\nskyprobe.scale=mitsuba\n", Some(20.0), 0),
+        ("skyprobe.scale=luminance\n", Some(1.0), 0),
+        ("skyprobe.white_luminance=0\nskyprobe.scale=luminance\n", Some(1.0), 1),
+        ("skyprobe.white_luminance=nan\n", None, 1),
+        ("skyprobe.white_luminance=-5\n", None, 1),
+        ("skyprobe.white_luminance=1e300\n", None, 1),
+        ("skyprobe.white_luminance=bright\nskyprobe.scale=dark\n", None, 2),
+        ("\tskyprobe.scale=mitsuba\n", None, 0),
+        ("", None, 0),
+    ] {
+        let found = picture(header);
+        assert_eq!((found.white_luminance, found.notes.len()), (luminance.unwrap_or(683.0), notes), "{header}");
+        assert_eq!(found.assumption().is_some(), luminance.is_none(), "{header}");
+    }
+}
+
+#[test]
 fn damaged_files_are_told_from_sound_ones_and_never_panic() {
     let folder = tempfile::tempdir().unwrap();
     let view = View::LatLong { rows: Rows::Centre };

@@ -28,7 +28,7 @@ pub struct Frame<'a> {
 
 impl<'a> From<&'a Picture> for Frame<'a> {
     fn from(picture: &'a Picture) -> Self {
-        let &Picture { width, height, ref pixels, color_space, white_luminance, view } = picture;
+        let &Picture { width, height, ref pixels, color_space, white_luminance, view, .. } = picture;
         Self { width, height, pixels, color_space, white_luminance, view }
     }
 }
