@@ -55,6 +55,7 @@ from ._core import (
     SolarEclipse,
     SunEvents,
     __version__,
+    check_files,
 )
 
 __all__ = [
@@ -78,5 +79,6 @@ __all__ = [
     "SolarEclipse",
     "SunEvents",
     "__version__",
+    "check_files",
     "places",
 ]

@@ -1,8 +1,8 @@
 //! Options of commands that finish a picture: what the file does not say of it.
 
-use super::complain;
-use crate::error::{Error, Result};
-use crate::io::{PictureHints, PictureLimits, check_output, read_picture};
+use super::{complain, files};
+use crate::error::Result;
+use crate::io::{PictureHints, PictureLimits, read_picture};
 use crate::post::{Picture, Repairs};
 use crate::units::Scale;
 use clap::Args;
@@ -61,18 +61,10 @@ impl PictureOptions {
         })
     }
 
-    /// Reads `input`, after a check that `output` can be written to.
+    /// Reads `input`, after a check that `output` can be written to and is another file.
     pub fn read(&self, input: &Path, output: &Path) -> Result<Picture> {
         let hints = self.hints()?;
-        if output.is_dir() {
-            return Err(Error::input("output", output.display(), "a file, not a directory"));
-        }
-        check_output(output).map_err(|error| match error {
-            Error::File { reason, .. } => {
-                Error::input("output", output.display(), format!("a file that can be written ({reason})"))
-            }
-            other => other,
-        })?;
+        files::check(&[("input", input)], &[("output", output)])?;
         let picture = read_picture(input, &hints)?;
         self.tell(input, &picture);
         Ok(picture)

@@ -77,7 +77,7 @@ pub fn read_exr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
 /// Reads the content of a Radiance file, as [`read_picture`] does.
 ///
 /// # Errors
-/// As [`read_picture`]; messages call the file `hdr`.
+/// As [`read_picture`]; messages call the file `bytes`.
 pub fn read_hdr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
     picture(Path::new("hdr"), hdr::read_rgb_bytes(bytes, &hints.limits)?, hints)
 }
