@@ -269,7 +269,7 @@ pub fn run(options: &Options) -> Result<()> {
     terminal::with_progress(|progress| {
         if let Some(path) = &options.sample_map {
             let light = sky.filtered_light(config.light.polarising_filter.as_ref(), config.light.tolerance, progress)?;
-            SampleMap::new(&light, SAMPLE_MAP_WIDTH, progress)?.save(path)?;
+            SampleMap::new(&light, SAMPLE_MAP_WIDTH, config.probe.turn_deg, progress)?.save(path)?;
         }
         if config.output.is_empty() {
             return Ok(());

@@ -28,6 +28,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("InputError", py.get_type::<errors::InputError>())?;
     module.add("DataError", py.get_type::<errors::DataError>())?;
     module.add("Cancelled", py.get_type::<errors::Cancelled>())?;
+    module.add("SunlightOnlyWarning", py.get_type::<errors::SunlightOnlyWarning>())?;
     module.add_class::<air::Atmosphere>()?;
     module.add_class::<air::Component>()?;
     module.add_class::<air::Phase>()?;
