@@ -111,6 +111,8 @@ def load_mitsuba(variant):
 def warn_of_centred_rows(mi, path):
     """Says so if the file's header says that it was not made for Mitsuba."""
     header = mi.Bitmap(str(path)).metadata()
+    if float(header.get("skyprobe.turn_deg", 0.0)) != 0.0:
+        raise ValueError(f"probe = {path}: must not be turned (its header says turn_deg = {header['skyprobe.turn_deg']})")
     if "skyprobe.rows" in header and header["skyprobe.rows"] != "corner":
         print(f"warning: {path} has its rows in the centre, the sky will stand up to half a row too high (README.md)", file=sys.stderr)
 

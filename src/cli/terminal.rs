@@ -17,7 +17,9 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 pub fn with_progress<T>(work: impl FnOnce(&Progress<'_>) -> Result<T>) -> Result<T> {
     // It can fail only if a handler of this crate is there already, from an earlier run in the same process.
     let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr_with_hz(10));
+    let quiet = super::QUIET.load(Ordering::Relaxed);
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
+    let bar = ProgressBar::with_draw_target(Some(1000), target);
     if let Ok(style) = ProgressStyle::with_template("{prefix:>8} [{bar:40}] {percent:>3} % {elapsed}") {
         bar.set_style(style.progress_chars("=> "));
     }

@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod config;
 mod describe;
+mod distinct;
 pub mod exr;
 pub mod hdr;
 pub mod json;
@@ -17,6 +18,7 @@ mod write;
 pub use atomic::{check_writable, write_atomically};
 pub use config::Config;
 pub use describe::describe;
+pub use distinct::distinct;
 pub use metadata::Metadata;
 pub use png::Depth;
 pub use read::{PictureHints, read_picture};
@@ -152,6 +154,10 @@ fn own_fields(settings: &ProbeSettings, metadata: &Metadata) -> Vec<(String, Str
     ];
     if settings.projection == Projection::LatLong {
         fields.push(("rows", settings.rows.name().to_owned()));
+    }
+    // Absent in pictures that are not turned, as in those of other programs.
+    if settings.turn_deg != 0.0 {
+        fields.push(("turn_deg", settings.turn_deg.to_string()));
     }
     for (name, value) in [("sun_altitude_deg", metadata.sun_altitude_deg), ("sun_azimuth_deg", metadata.sun_azimuth_deg)] {
         if let Some(value) = value {

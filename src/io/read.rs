@@ -5,6 +5,7 @@
 //! | colour space | the caller; chromaticities (EXR), PRIMARIES or FORMAT (HDR); Rec. 709. Primaries of none of our spaces are converted to Rec. 709 |
 //! | luminance of 1.0 | the caller; `skyprobe.white_luminance`, `whiteLuminance`, `skyprobe.scale`; 683 cd m-2, as Blender's physical sky |
 //! | projection | the caller; `skyprobe.projection`; perspective, also for 2:1 |
+//! | turn | `skyprobe.turn_deg`; none |
 //! | rows, field of view | the caller; `skyprobe.rows`, `skyprobe.field_of_view_deg`; centre, and 39.6 degrees, Blender's first camera |
 
 use super::{exr, hdr};
@@ -72,7 +73,9 @@ pub fn read_picture(path: impl AsRef<Path>, hints: &PictureHints) -> Result<Pict
             ColorSpace::LinRec709
         }),
     };
-    Picture::new(raw.width, raw.height, pixels, color_space, white_luminance, view)
+    let turn_deg = raw.fields.get("skyprobe.turn_deg").map_or(Ok(0.0), |text| number("skyprobe.turn_deg", text))?;
+    let picture = Picture::new(raw.width, raw.height, pixels, color_space, white_luminance, view)?;
+    Ok(Picture { turn_deg: if turn_deg.is_finite() { turn_deg } else { 0.0 }, ..picture })
 }
 
 fn view(fields: &BTreeMap<String, String>, hints: &PictureHints) -> Result<View> {

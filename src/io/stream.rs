@@ -2,7 +2,7 @@
 
 use super::exr::Largest;
 use super::row_file::RowFile;
-use super::{FileOptions, Metadata};
+use super::{FileOptions, Metadata, distinct};
 use crate::error::Result;
 use crate::probe::{Painter, Probe, ProbeSettings};
 use crate::progress::Progress;
@@ -23,7 +23,7 @@ fn band_rows(width: usize, pictures: usize) -> usize {
     BLOCK_ROWS * for_threads.max(least).min(most).max(1)
 }
 
-/// Renders the light of `sky` into the files `paths`, each in the format that its suffix names, whole or not at all. The pixels are those of
+/// Renders the light of `sky` into the files `paths`, each in the format that its suffix names, whole or not at all; a file that is named several times is written once. The pixels are those of
 /// [`render`](crate::probe::render), but only a band of rows of them is in memory at a time: but for PNG, whose exposure needs the whole picture.
 /// Half floats are rendered twice, because the first rows depend on the brightest pixel. Progress is the stage "render".
 ///
@@ -50,7 +50,8 @@ pub fn render_to_files<P: AsRef<Path>>(
     };
     let layers = if options.layers { sky.layers() } else { Vec::new() };
     let names: Vec<&'static str> = layers.iter().map(|(name, _)| *name).collect();
-    let files = paths.iter().map(|path| RowFile::create(path.as_ref(), settings, &names, (options, metadata), largest));
+    let files = distinct(paths).into_iter();
+    let files = files.map(|path| RowFile::create(path, settings, &names, (options, metadata), largest));
     let files = files.collect::<Result<Vec<_>>>()?;
     let twice = measured.lock().unwrap_or_else(PoisonError::into_inner).is_some();
     let second_half = |stage: &str, fraction: f64| progress.report(stage, 0.5 + 0.5 * fraction).is_ok();

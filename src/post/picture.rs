@@ -144,10 +144,12 @@ pub struct Picture {
     pub white_luminance: f64,
     /// Where the pixels look.
     pub view: View,
+    /// How far a sky in it is turned clockwise, as [`ProbeSettings::turn_deg`] [degrees]: nothing here depends on it, but what is made of the picture is turned as well.
+    pub turn_deg: f64,
 }
 
 impl Picture {
-    /// A picture of given `pixels`, row-major (height, width, 3).
+    /// A picture of given `pixels`, row-major (height, width, 3), not turned.
     ///
     /// # Errors
     /// [`Error::Input`] for a size, `white_luminance` or field of view that no picture has; [`Error::Data`] if the number of values is not that of the size.
@@ -181,7 +183,7 @@ impl Picture {
                 3 * width * height
             )));
         }
-        Ok(Self { width, height, pixels, color_space, white_luminance, view })
+        Ok(Self { width, height, pixels, color_space, white_luminance, view, turn_deg: 0.0 })
     }
 
     /// Makes every value one that light can have, so that none spreads over the picture, and says how many were not.
@@ -214,7 +216,8 @@ impl From<Probe> for Picture {
         let settings = &probe.settings;
         let view = View::of(settings);
         let (color_space, white_luminance) = (settings.color_space, Scale::white_luminance(settings.scale));
-        Self { width: probe.width, height: probe.height, pixels: probe.pixels, color_space, white_luminance, view }
+        let turn_deg = settings.turn_deg;
+        Self { width: probe.width, height: probe.height, pixels: probe.pixels, color_space, white_luminance, view, turn_deg }
     }
 }
 
