@@ -112,5 +112,8 @@ def _turn_of_file(path: str | os.PathLike[str]) -> float:
     if header.startswith(b"#?"):
         found = re.search(rf"^{re.escape(_TURN)}=(\S+)".encode(), header.partition(b"\n\n")[0], re.MULTILINE)
     else:
-        found = re.search(rf"{re.escape(_TURN)}\0string\0....([-+.eE0-9]+)".encode(), header, re.DOTALL)
+        found = re.search(_TURN.encode() + rb"\0string\0(.{4})", header, re.DOTALL)
+        if found:
+            text = header[found.end() :][: int.from_bytes(found[1], "little")]
+            return float(text)
     return float(found[1]) if found else 0.0
