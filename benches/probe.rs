@@ -1,7 +1,8 @@
-//! What a probe costs once the light is there: pixels, with the dome of a clear sky, with a night and with a sky that costs nothing; getting a night and a day ready; files.
+//! What a probe costs once the light is there: pixels, with the dome of a clear sky, with a night and with a sky that costs nothing; getting a night and a day ready; what planes receive; files.
 //! `cargo bench --bench probe`.
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use glam::DVec3;
 use skyprobe::atmosphere::AirParameters;
 use skyprobe::ephemeris::{Place, SunModel};
 use skyprobe::io::{FileOptions, Metadata, save};
@@ -85,6 +86,33 @@ fn night(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// What planes receive: from a picture, one and a thousand of them, and from the sky itself, beside the picture that the sky would have to be made into.
+fn received(criterion: &mut Criterion) {
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Standard, true).unwrap());
+    let sky = Sky::with_sun(30.0, 180.0, 0.0, air).unwrap();
+    let silent = Progress::silent();
+    let settings = ProbeSettings { width: 2048, ..Default::default() };
+    let probe = render(&sky.light(&silent).unwrap(), &settings, &silent).unwrap();
+    let turn = |k: u32| (2.4 * f64::from(k), (f64::from(k) + 0.5) / 500.0 - 1.0);
+    let normals: Vec<DVec3> = (0..1000)
+        .map(turn)
+        .map(|(azimuth, up)| DVec3::new(azimuth.sin() * (1.0 - up * up).sqrt(), azimuth.cos() * (1.0 - up * up).sqrt(), up))
+        .collect();
+    let mut group = criterion.benchmark_group("received");
+    group.sample_size(10);
+    for count in [1, 1000] {
+        group.bench_function(format!("by {count} planes, 2048 x 1024"), |bencher| {
+            bencher.iter(|| probe.irradiances(&normals[..count]));
+        });
+    }
+    group.bench_function("illuminance", |bencher| bencher.iter(|| sky.illuminance(&silent).unwrap()));
+    let small = ProbeSettings { width: 256, ..Default::default() };
+    group.bench_function("the same from a picture, 256 x 128", |bencher| {
+        bencher.iter(|| render(&sky.light(&silent).unwrap(), &small, &silent).unwrap().irradiance(DVec3::Z));
+    });
+    group.finish();
+}
+
 fn files(criterion: &mut Criterion) {
     let folder = tempfile::tempdir().unwrap();
     let probe = render(&dome(), &ProbeSettings { width: 4096, ..Default::default() }, &Progress::silent()).unwrap();
@@ -99,5 +127,5 @@ fn files(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, pixels, night, files);
+criterion_group!(benches, pixels, night, received, files);
 criterion_main!(benches);

@@ -123,6 +123,8 @@ def header_of(mi, path):
 
 def warn_of_centred_rows(path, header):
     """Says so if the file's header says that it was not made for Mitsuba."""
+    if float(header.get("skyprobe.turn_deg", 0.0)) != 0.0:
+        raise ValueError(f"probe = {path}: must not be turned (its header says turn_deg = {header['skyprobe.turn_deg']})")
     if header.get("skyprobe.rows", "corner") != "corner":
         print(f"warning: {path} has its rows in the centre, the sky will stand up to half a row too high (README.md)", file=sys.stderr)
 

@@ -593,3 +593,111 @@ fn pictures_are_brought_to_a_screen_one_by_one_all_ways_and_in_sequence() {
         assert!(!folder.path().join("x.png").exists() && !folder.path().join("x.exr").exists());
     }
 }
+
+#[test]
+fn shutter_times_may_be_fractions() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = tool(folder.path(), &[&["render", "--quality", "draft", "--width", "64", "-o", "a.exr"], &SUN[..]].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let map = |shutter: &str, output: &str| {
+        tool(folder.path(), &["tonemap", "a.exr", output, "--operator", "exposure", "--aperture", "8", "--shutter", shutter])
+    };
+    for (shutter, output) in [("0.004", "a.png"), ("1/250", "b.png"), ("1/250s", "c.png")] {
+        let done = map(shutter, output);
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        assert_eq!(std::fs::read(folder.path().join(output)).unwrap(), std::fs::read(folder.path().join("a.png")).unwrap());
+    }
+    for shutter in ["1/0", "0,004", "fast", "1/"] {
+        let failed = map(shutter, "d.png");
+        let complaint = text(&failed.stderr);
+        assert_eq!(failed.status.code(), Some(2), "{complaint}");
+        assert!(complaint.lines().count() == 1 && complaint.contains("--shutter") && complaint.contains("1/250"), "{complaint}");
+    }
+    assert!(!folder.path().join("d.png").exists());
+}
+
+#[test]
+fn a_file_that_is_named_twice_is_written_once() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    let named = ["-o", "a.exr", "-o", "a.exr", "-o", "./a.exr", "-o", "sub/../a.exr", "-o", "b.png", "--preview", "./b.png"];
+    let done = tool(folder.path(), &[&["render", "--quality", "draft", "--width", "64"], &SUN[..], &named].concat());
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    assert_eq!(files(folder.path()), ["a.exr", "b.png", "sub"]);
+    assert_eq!(text(&done.stdout).lines().count(), 2, "{}", text(&done.stdout));
+}
+
+#[test]
+fn the_sky_can_be_turned_in_its_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = |more: &[&str]| {
+        let sun = ["--sun-altitude", "5", "--sun-azimuth", "270"];
+        let done = tool(folder.path(), &[&["render", "--quality", "draft", "--width", "64"], &sun[..], more].concat());
+        assert!(done.status.success(), "{}", text(&done.stderr));
+        text(&done.stdout)
+    };
+    render(&["-o", "plain.exr"]);
+    render(&["--turn", "90", "-o", "turned.exr"]);
+    render(&["--centre", "sun", "-o", "sun.exr"]);
+    let pixels = |name: &str| skyprobe::io::read_picture(folder.path().join(name), &Default::default()).unwrap();
+    let (mut plain, turned, sun) = (pixels("plain.exr"), pixels("turned.exr"), pixels("sun.exr"));
+    assert_eq!((plain.turn_deg, turned.turn_deg, sun.turn_deg.abs()), (0.0, 90.0, 180.0));
+    plain.pixels.chunks_exact_mut(3 * 64).for_each(|row| row.rotate_right(3 * 16));
+    let close = |a: &[f32], b: &[f32]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-3 * a.abs().max(1e-2));
+    assert!(close(&plain.pixels, &turned.pixels));
+    plain.pixels.chunks_exact_mut(3 * 64).for_each(|row| row.rotate_right(3 * 16));
+    assert!(close(&plain.pixels, &sun.pixels));
+    let brightest = (0..64 * 32).max_by(|&a, &b| sun.pixels[3 * a + 1].total_cmp(&sun.pixels[3 * b + 1])).unwrap();
+    assert!([31, 32].contains(&(brightest % 64)), "{}", brightest % 64);
+    // The configuration that is told makes it again; without a turn it says nothing of one.
+    assert!(render(&["--centre", "sun", "--dump-config"]).contains("\"turn_deg\": 180"));
+    assert!(!render(&["--dump-config"]).contains("turn_deg"));
+    for (more, part) in [
+        (["--turn", "400"], "turn_deg = 400: must be a number from -360 to 360 degrees"),
+        (["--centre", "venus"], "centre = \"venus\": must be sun, moon or an azimuth"),
+        (["--centre", "moon"], "centre = moon: must be sun or an azimuth"),
+        (["--centre", "nan"], "centre = NaN: must be"),
+    ] {
+        let failed = tool(folder.path(), &[&["render", "-o", "x.exr"], &SUN[..], &more].concat());
+        assert!(failed.status.code() == Some(2) && text(&failed.stderr).contains(part), "{}", text(&failed.stderr));
+    }
+}
+
+#[test]
+fn a_quiet_tool_says_only_what_was_asked_for_and_threads_are_as_many_as_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let render =
+        |more: &[&str]| tool(folder.path(), &[&["render", "--quality", "draft", "--width", "64"], &SUN[..], more].concat());
+    for (threads, name) in [("1", "a.exr"), ("3", "b.exr")] {
+        let done = render(&["--quiet", "--threads", threads, "-o", name]);
+        assert!(done.status.success() && done.stdout.is_empty() && done.stderr.is_empty(), "{}", text(&done.stderr));
+    }
+    let read = |name: &str| skyprobe::io::read_picture(folder.path().join(name), &Default::default()).unwrap().pixels;
+    assert_eq!(read("a.exr"), read("b.exr"));
+    assert!(text(&render(&["-q", "--dump-config"]).stdout).contains("latlong"));
+    assert!(!tool(folder.path(), &["--quiet", "places", "Lund"]).stdout.is_empty());
+    let failed = render(&["--threads", "0", "-o", "c.exr"]);
+    assert!(failed.status.code() == Some(2) && text(&failed.stderr).contains("--threads"), "{}", text(&failed.stderr));
+}
+
+#[test]
+fn shells_and_man_are_told_of_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let done = tool(folder.path(), &["completions", shell]);
+        let script = text(&done.stdout);
+        assert!(done.status.success() && script.contains("tonemap") && script.contains("sun-azimuth"), "{shell}");
+    }
+    assert_eq!(tool(folder.path(), &["completions", "tcsh"]).status.code(), Some(2));
+    let page = text(&tool(folder.path(), &["man"]).stdout);
+    assert!(page.contains(".TH skyprobe") && page.contains("render"), "{page}");
+    let page = text(&tool(folder.path(), &["man", "render"]).stdout);
+    assert!(page.contains("skyprobe\\-render") && page.contains("polarising"), "{page}");
+    let failed = tool(folder.path(), &["man", "sing"]);
+    assert!(failed.status.code() == Some(2) && text(&failed.stderr).contains("command = \"sing\""), "{}", text(&failed.stderr));
+    assert!(tool(folder.path(), &["man", "--folder", "."]).status.success());
+    let pages = files(folder.path());
+    for name in ["skyprobe.1", "skyprobe-render.1", "skyprobe-tonemap.1", "skyprobe-places.1"] {
+        assert!(pages.contains(&name.to_owned()), "{pages:?}");
+    }
+}

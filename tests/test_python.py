@@ -209,8 +209,14 @@ def test_wrong_arrays_are_named(sky: sp.Sky, probe: sp.Probe) -> None:
     for wavelengths_nm in wrong_wavelengths:
         with pytest.raises(sp.InputError, match="wavelengths_nm"):
             sky.irradiance(wavelengths_nm)
-    with pytest.raises(sp.InputError, match="normal"):
-        probe.irradiance([0.0, 0.0, 0.0])
+    wrong_normals: list[tuple[Any, str]] = [
+        ([0.0, 0.0, 0.0], r"normal = \(0, 0, 0\): must be a vector \(east, north, up\) longer than 0"),
+        ([[0.0, 0.0, 1.0], [0.0, float("nan"), 1.0]], r"normal\[1\] = \(0, NaN, 1\): must be"),
+        ([[1.0, 0.0]], r"normal = array of shape \(1, 2\): must be"),
+    ]
+    for normal, message in wrong_normals:
+        with pytest.raises(sp.InputError, match=message):
+            probe.irradiance(normal)
 
 
 def test_files_fail_as_files_do(sky: sp.Sky, probe: sp.Probe, tmp_path: pathlib.Path) -> None:
@@ -507,3 +513,68 @@ def test_mitsuba_sees_the_sky_where_it_is(air: sp.Atmosphere, tmp_path: pathlib.
         sp_mitsuba.envmap(sky.render(width=64, projection="fisheye"))
     with pytest.warns(UserWarning, match='rows="corner"'):
         sp_mitsuba.envmap(sky.render(width=64))
+
+
+@pytest.mark.parametrize("altitude_deg", [10.0, 2.0, 1.0, 0.0, -0.5, -4.0])
+def test_the_sun_as_a_lamp_has_a_colour_that_renderers_can_have(air: sp.Atmosphere, altitude_deg: float) -> None:
+    sky = sp.Sky.with_sun(altitude_deg=altitude_deg, azimuth_deg=0.0, atmosphere=air)
+    luminance = sky.sun_irradiance_rgb(color_space="xyz")[1]
+    spaces: list[Any] = ["lin_rec709", "acescg", "lin_rec2020", "xyz"]
+    for color_space in spaces:
+        assert min(sky.sun_irradiance_rgb(color_space=color_space)) >= 0.0
+    red_green_blue = numpy.array(sky.sun_irradiance_rgb())
+    assert red_green_blue @ [0.212639, 0.715169, 0.072192] == pytest.approx(luminance, rel=1e-5)
+    kept = sky.sun_irradiance_rgb(gamut="keep")
+    assert (min(kept) < 0.0) == (-0.8 < altitude_deg < 2.5)
+    assert sky.sun_irradiance_rgb(gamut="clip") == tuple(max(value, 0.0) for value in kept)
+    with pytest.raises(sp.InputError, match="gamut"):
+        sky.sun_irradiance_rgb(gamut="wide")  # type: ignore[arg-type]
+
+
+def test_many_planes_are_lit_at_once_as_each_alone(sky: sp.Sky) -> None:
+    normals = numpy.random.default_rng(3).normal(size=(40, 3))
+    for settings in ({"rows": "centre"}, {"rows": "corner"}, {"extent": "upper"}, {"projection": "fisheye"}):
+        probe = sky.render(width=64, **settings)  # type: ignore[arg-type]
+        together = probe.irradiance(normals)
+        assert isinstance(together, numpy.ndarray) and together.shape == (40, 3) and together.dtype == numpy.float64
+        alone = [probe.irradiance(normal) for normal in normals]
+        assert isinstance(alone[0], tuple)
+        numpy.testing.assert_array_equal(together, alone)
+    one = probe.irradiance([[0.0, 0.0, 1.0]])
+    assert isinstance(one, numpy.ndarray) and tuple(one[0]) == probe.irradiance() == probe.irradiance([0.0, 0.0, 2.0])
+    none = probe.irradiance(numpy.empty((0, 3)))
+    assert isinstance(none, numpy.ndarray) and none.shape == (0, 3)
+
+
+def test_a_turned_probe_is_the_probe_rolled_and_lights_alike(sky: sp.Sky, tmp_path: pathlib.Path) -> None:
+    plain, turned = sky.render(width=128), sky.render(width=128, turn_deg=360.0 * 20 / 128)
+    assert (plain.turn_deg, turned.turn_deg) == (0.0, 56.25)
+    numpy.testing.assert_allclose(turned.pixels, numpy.roll(plain.pixels, 20, axis=1), rtol=1e-5, atol=1e-6)
+    for normal in ([0.0, 0.0, 1.0], [0.4, -0.8, 0.1]):
+        assert turned.irradiance(normal) == pytest.approx(plain.irradiance(normal), rel=1e-4)
+    samples = sky.sample_map(width=128, turn_deg=56.25)
+    assert samples.shape == (64, 128, 3) and (samples == 255).all(axis=2).sum() > 100
+    sky.render_to_file(tmp_path / "turned.exr", width=128, turn_deg=56.25)
+    assert b"skyprobe.turn_deg" in (tmp_path / "turned.exr").read_bytes()
+    with pytest.raises(sp.InputError, match="turn_deg = 400: must be a number from -360 to 360 degrees"):
+        sky.render(width=64, turn_deg=400.0)
+
+
+def test_mitsuba_turns_a_turned_probe_back(air: sp.Atmosphere, tmp_path: pathlib.Path) -> None:
+    mitsuba = pytest.importorskip("mitsuba")
+    mitsuba.set_variant("scalar_rgb")
+    sky = sp.Sky.with_sun(altitude_deg=40.0, azimuth_deg=120.0, atmosphere=air)
+    plain, turned = (sky.render(width=256, rows="corner", sun_disc=False, turn_deg=turn) for turn in (0.0, 77.3))
+    sources: list[Any] = [turned]
+    for name in ("sky.exr", "sky.hdr"):
+        turned.save(tmp_path / name)
+        sources.append(tmp_path / name)
+
+    def seen(source: Any, direction: list[float]) -> numpy.ndarray:
+        point = mitsuba.SurfaceInteraction3f()
+        point.wi = mitsuba.Vector3f(*[-value for value in direction])
+        return numpy.array(mitsuba.load_dict(sp_mitsuba.envmap(source)).eval(point)).ravel()
+
+    for direction in ([0.0, 0.8, 0.6], [-0.8, 0.0, 0.6], [0.36, -0.48, 0.8]):
+        for source in sources:
+            numpy.testing.assert_allclose(seen(source, direction), seen(plain, direction), rtol=2e-2)

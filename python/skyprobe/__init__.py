@@ -17,7 +17,7 @@ Conventions
 - Directions are unit vectors, x = east, y = north, z = up. Azimuth in degrees from north through east, altitude in degrees
   above the horizon. Altitudes are geometric (airless) unless the name says ``apparent``.
 - Wavelengths in nm; spectral radiance in W m-2 sr-1 nm-1; irradiance in W m-2 nm-1; illuminance in lx (CIE 1931 observer).
-- Latitude-longitude probes: row 0 at the zenith, column at 1/4 + azimuth / 360 of the width (north at 1/4, east in the centre).
+- Latitude-longitude probes: row 0 at the zenith, column at 1/4 + (azimuth + turn_deg) / 360 of the width (without turn north at 1/4, east in the centre).
 - Long work releases the interpreter. ``progress(stage, fraction)`` is called on the thread that asked for the work; returning
   ``False`` from it raises :class:`Cancelled`.
 
@@ -30,7 +30,8 @@ Errors
 ------
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
 ``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
-:class:`ScaleWarning` says that the luminance of a picture had to be assumed.
+:class:`ScaleWarning` says that the luminance of a picture had to be assumed,
+:class:`SunlightOnlyWarning` that a spectrum lacks the light of the night.
 """
 
 from . import places
@@ -54,6 +55,7 @@ from ._core import (
     Sky,
     SolarEclipse,
     SunEvents,
+    SunlightOnlyWarning,
     __version__,
     check_files,
 )
@@ -78,6 +80,7 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "SunlightOnlyWarning",
     "__version__",
     "check_files",
     "places",

@@ -99,6 +99,9 @@ class Cancelled(Exception):
 class ScaleWarning(UserWarning):
     """The luminance that a picture's numbers stand for was not said, and had to be assumed: glare and tone mapping depend on it."""
 
+class SunlightOnlyWarning(UserWarning):
+    """A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."""
+
 @final
 class Phase:
     """Where a scatterer sends the light: a phase function, normalised to 4 pi over the sphere."""
@@ -807,6 +810,9 @@ class Sky:
     ) -> NDArray[numpy.float64]:
         """Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
 
+        It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+
         Parameters
         ----------
         directions
@@ -826,6 +832,9 @@ class Sky:
         as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
         arctan2(U, Q) / 2. Circular polarisation is neglected.
 
+        It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+
         Parameters
         ----------
         directions
@@ -837,7 +846,10 @@ class Sky:
         """
 
     def irradiance(self, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None) -> Irradiance:
-        """Spectral irradiance by the light of the Sun: of its disc and of the sky. Moonlight and the other lights of the night are not in it. [W m-2 nm-1]
+        """Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
+
+        It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
 
         Parameters
         ----------
@@ -855,15 +867,21 @@ class Sky:
         *,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
+        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
         progress: _Progress | None = None,
     ) -> tuple[float, float, float]:
-        """Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr."""
+        """Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr.
+
+        ``gamut`` says what happens to a colour outside the space, as in ``render``: a Sun below 4 degrees is redder than Rec. 709. A lamp with this colour belongs where the disc is
+        seen, at ``sun.apparent_altitude_deg``.
+        """
 
     def moon_irradiance_rgb(
         self,
         *,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
+        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
         progress: _Progress | None = None,
     ) -> tuple[float, float, float]:
         """Irradiance of the Moon's disc on a plane that faces it, as ``sun_irradiance_rgb``; zeros if the Moon is below the horizon or the night is never
@@ -877,6 +895,7 @@ class Sky:
         projection: Literal["latlong", "fisheye"] = "latlong",
         rows: Literal["centre", "corner"] = "centre",
         extent: Literal["full", "upper"] = "full",
+        turn_deg: float = 0.0,
         ground: Literal["on", "off", "mirrored"] = "on",
         sun_disc: bool = True,
         scale: _Scale = "blender",
@@ -899,6 +918,8 @@ class Sky:
             "centre" (Blender and most viewers), or "corner" for Mitsuba: first and last row on the poles.
         extent
             The "full" sphere or the "upper" half.
+        turn_deg
+            How far the sky in the picture is turned clockwise as seen from above, -360 to 360: to the right, by ``turn_deg / 360`` of the width. [degrees]
         ground
             What is seen below the horizon: "on", "off" (black) or "mirrored".
         sun_disc
@@ -929,6 +950,7 @@ class Sky:
         projection: Literal["latlong", "fisheye"] = "latlong",
         rows: Literal["centre", "corner"] = "centre",
         extent: Literal["full", "upper"] = "full",
+        turn_deg: float = 0.0,
         ground: Literal["on", "off", "mirrored"] = "on",
         sun_disc: bool = True,
         scale: _Scale = "blender",
@@ -950,7 +972,7 @@ class Sky:
         ----------
         path
             Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-        width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
+        width, projection, rows, extent, turn_deg, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
             As for ``render``.
         separate_layers
             Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
@@ -964,6 +986,7 @@ class Sky:
         self,
         *,
         width: int = 1024,
+        turn_deg: float = 0.0,
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
         progress: _Progress | None = None,
@@ -975,7 +998,7 @@ class Sky:
         ----------
         width
             Even, 64 to 16384. [pixels]
-        polarising_filter, tolerance
+        turn_deg, polarising_filter, tolerance
             As for ``render``.
         progress
             Called with stage and fraction; returning False raises Cancelled.
@@ -1008,6 +1031,10 @@ class Probe:
     @property
     def extent(self) -> str:
         """As asked for in ``Sky.render``."""
+
+    @property
+    def turn_deg(self) -> float:
+        """As asked for in ``Sky.render``. [degrees]"""
 
     @property
     def ground(self) -> str:
@@ -1051,13 +1078,14 @@ class Probe:
             Called with stage and fraction; returning False raises Cancelled, and there is no file.
         """
 
-    def irradiance(self, normal: ArrayLike | None = None) -> tuple[float, float, float]:
-        """Irradiance of a plane: the integral of pixels times cosine, in the probe's units times sr.
+    def irradiance(self, normal: ArrayLike | None = None) -> tuple[float, float, float] | NDArray[numpy.float64]:
+        """Irradiance of planes: the integral of pixels times cosine, in the probe's units times sr. One plane gives a tuple of three, planes of shape (N, 3) an
+        array of that shape: a thousand cost little more than one.
 
         Parameters
         ----------
         normal
-            Vector (east, north, up) that the plane faces; up by default.
+            Vector (east, north, up) that the plane faces, of any length but 0, or several of them, shape (N, 3); up by default.
         """
 
 @final

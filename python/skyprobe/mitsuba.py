@@ -17,6 +17,7 @@ and for a scene with y up, as exporters from Blender write it (x east, z south):
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from typing import Any
 
@@ -26,6 +27,8 @@ from numpy.typing import NDArray
 from ._core import InputError, Probe
 
 __all__ = ["envmap", "to_world"]
+
+_TURN = "skyprobe.turn_deg"
 
 # Columns are the images of Mitsuba's x, y (up) and z (centre of the map) axes: north, up and east turned so that the centre is east.
 _UP = {
@@ -73,7 +76,8 @@ def envmap(
     Parameters
     ----------
     probe
-        A full latitude-longitude probe, best with ``rows="corner"``, or the path of an EXR or HDR file of one.
+        A full latitude-longitude probe, best with ``rows="corner"``, or the path of an EXR or HDR file of one. If its sky is turned (``turn_deg``), it is
+        turned back.
     up, north_deg
         As in :func:`to_world`.
     scale
@@ -81,10 +85,11 @@ def envmap(
     """
     import mitsuba
 
+    turn_deg = probe.turn_deg if isinstance(probe, Probe) else _turn_of_file(probe)
     emitter: dict[str, Any] = {
         "type": "envmap",
         "scale": scale,
-        "to_world": mitsuba.ScalarTransform4f(to_world(up, north_deg)),
+        "to_world": mitsuba.ScalarTransform4f(to_world(up, north_deg - turn_deg)),
     }
     if not isinstance(probe, Probe):
         emitter["filename"] = os.fspath(probe)
@@ -98,3 +103,17 @@ def envmap(
         )
     emitter["bitmap"] = mitsuba.Bitmap(probe.pixels)
     return emitter
+
+
+def _turn_of_file(path: str | os.PathLike[str]) -> float:
+    """How far the sky in a file is turned, by its header: text after a name in OpenEXR's attributes or in a line of Radiance's. [degrees]"""
+    with open(path, "rb") as file:
+        header = file.read(1 << 16)
+    if header.startswith(b"#?"):
+        found = re.search(rf"^{re.escape(_TURN)}=(\S+)".encode(), header.partition(b"\n\n")[0], re.MULTILINE)
+    else:
+        found = re.search(_TURN.encode() + rb"\0string\0(.{4})", header, re.DOTALL)
+        if found:
+            text = header[found.end() :][: int.from_bytes(found[1], "little")]
+            return float(text)
+    return float(found[1]) if found else 0.0

@@ -6,7 +6,7 @@ mod text;
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
 use super::options::{ConfigOptions, PlaceOptions};
-use super::{files, say, terminal};
+use super::{answer, files, terminal};
 use crate::ephemeris::{Body, MoonPhase, RiseAndSet, SunEvents, Target, next_moon_phases, rise_and_set, sun_events};
 use crate::error::Result;
 use crate::io::Config;
@@ -59,7 +59,7 @@ pub fn run(options: &Options) -> Result<()> {
     options.night.apply(&mut config.night)?;
     config.validate()?;
     if options.config.dump_config {
-        return say(&config.to_json());
+        return answer(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
     let mut day = None;
@@ -72,7 +72,7 @@ pub fn run(options: &Options) -> Result<()> {
     }
     let light = if options.no_light { None } else { Some(terminal::with_progress(|progress| Light::of(&sky, progress))?) };
     let report = Report { sky: &sky, config: &config, day, light };
-    if options.json { say(&format!("{:#}", report.as_json())) } else { say(&report.as_text()) }
+    if options.json { answer(&format!("{:#}", report.as_json())) } else { answer(&report.as_text()) }
 }
 
 /// All that is told.

@@ -1,4 +1,4 @@
-//! The command line tool: one file a command.
+//! The command line tool: one file a command, but for the two that describe it to a shell.
 //!
 //! Exit codes: 0 done, 1 failed while working (such as a full disk), 2 wrong input (one line says which), 130 cancelled.
 
@@ -11,6 +11,8 @@ mod options;
 mod picture_options;
 mod places;
 mod render;
+mod seconds;
+mod shell;
 mod terminal;
 mod tonemap;
 
@@ -19,6 +21,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The light of the sky for a place, a time and a state of the air, as a high dynamic range light probe.
 #[derive(Parser)]
@@ -26,7 +29,15 @@ use std::io::Write;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Compute with this many threads, 1 to 1024. Default: one for each processor.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = GENERAL)]
+    threads: Option<u16>,
+    /// Say nothing of what is done, and show no progress: only what was asked for, what had to be assumed, and errors.
+    #[arg(short, long, global = true, help_heading = GENERAL)]
+    quiet: bool,
 }
+
+const GENERAL: &str = "General";
 
 #[derive(Subcommand)]
 enum Command {
@@ -40,6 +51,24 @@ enum Command {
     Glare(Box<glare::Options>),
     /// Bring a picture to a screen: a probe, or a scene that it lit, by one of nine operators; or a whole sequence without flicker.
     Tonemap(Box<tonemap::Options>),
+    /// Print a script that completes commands and options in a shell.
+    Completions(shell::CompletionOptions),
+    /// Print a manual page, or write all of them into a folder.
+    Man(shell::ManOptions),
+}
+
+impl Command {
+    fn run(&self) -> Result<()> {
+        match self {
+            Self::Render(options) => render::run(options),
+            Self::Info(options) => info::run(options),
+            Self::Places(options) => places::run(options),
+            Self::Glare(options) => glare::run(options),
+            Self::Tonemap(options) => tonemap::run(options),
+            Self::Completions(options) => shell::completions(options),
+            Self::Man(options) => shell::man(options),
+        }
+    }
 }
 
 const EXIT_CODES: &str = "\
@@ -52,13 +81,10 @@ Exit codes: 0 done, 1 failed while working, 2 wrong input, 130 cancelled.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     terminal::handle_signals();
     let outcome = match Cli::try_parse_from(arguments) {
-        Ok(cli) => match cli.command {
-            Command::Render(options) => render::run(&options),
-            Command::Info(options) => info::run(&options),
-            Command::Places(options) => places::run(&options),
-            Command::Glare(options) => glare::run(&options),
-            Command::Tonemap(options) => tonemap::run(&options),
-        },
+        Ok(cli) => {
+            QUIET.store(cli.quiet, Ordering::Relaxed);
+            with_threads(cli.threads, || cli.command.run())
+        }
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             // A closed pipe (`skyprobe --help | head`) is not worth a complaint.
             let _ = error.print();
@@ -82,8 +108,23 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// Writes `text` and a line break to the standard output.
+/// Does `work` with `threads` threads, or as many as there are processors.
+fn with_threads(threads: Option<u16>, work: impl FnOnce() -> Result<()> + Send) -> Result<()> {
+    let Some(threads) = threads else { return work() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build();
+    pool.map_err(|error| Error::data(format!("{threads} threads cannot be started: {error}")))?.install(work)
+}
+
+/// Whether only what was asked for is said.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Says what was done, on the standard output, unless that is not wanted.
 fn say(text: &str) -> Result<()> {
+    if QUIET.load(Ordering::Relaxed) { Ok(()) } else { answer(text) }
+}
+
+/// Writes what was asked for, `text` and a line break, to the standard output.
+fn answer(text: &str) -> Result<()> {
     let mut out = std::io::stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::file("standard output", error)),

@@ -1,6 +1,6 @@
 //! `skyprobe places`: which places a name may mean, and what is known of coordinates.
 
-use super::say;
+use super::answer;
 use crate::error::Result;
 use crate::places::{Coordinates, Location, NamedPlace, locate, search};
 use crate::time::zone_of_place;
@@ -44,12 +44,12 @@ pub fn run(options: &Options) -> Result<()> {
         None => vec![Row::of_coordinates(&location)?],
     };
     if options.json {
-        return say(&format!("{:#}", rows.iter().map(Row::as_json).collect::<Value>()));
+        return answer(&format!("{:#}", rows.iter().map(Row::as_json).collect::<Value>()));
     }
     let width = rows.iter().map(|row| row.label.chars().count()).max().unwrap_or(0);
     let coordinates = rows.iter().map(|row| row.coordinates.to_string().len()).max().unwrap_or(0);
     let lines: Vec<String> = rows.iter().map(|row| row.as_text(width, coordinates)).collect();
-    say(&lines.join("\n"))
+    answer(&lines.join("\n"))
 }
 
 /// What is told of a place.

@@ -3,11 +3,11 @@
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
 use super::options::{ConfigOptions, PlaceOptions};
-use super::{files, say, terminal};
+use super::{answer, files, say, terminal};
 use crate::error::{Error, Result, check_range};
 use crate::io::{Config, Format, SampleMap, describe, each_once, json, render_with};
-use crate::probe::{MAX_WIDTH, MIN_WIDTH};
-use crate::sky::{Layer, Model, PolarisingFilter};
+use crate::probe::{MAX_WIDTH, MIN_WIDTH, ProbeSettings};
+use crate::sky::{Layer, Model, PolarisingFilter, Sky};
 use clap::Args;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -28,6 +28,8 @@ Examples:
     skyprobe render --sun-altitude 30 --sun-azimuth 180 --rows corner --scale mitsuba -o sky.exr
   The same sky through a polarising filter that is held towards the east, 90 degrees from the Sun:
     skyprobe render --sun-altitude 30 --sun-azimuth 180 --polarising-filter 1 --filter-towards 20,90 -o dark.png
+  A low Sun in the west, which would stand on the seam of the picture, in the middle of it:
+    skyprobe render --sun-altitude 5 --sun-azimuth 270 --centre sun -o evening.exr
   A landscape under the full Moon; only the stars, the Moon and the Milky Way of the same night, each in channels of its own:
     skyprobe render --lat 55.71 --lon 13.19 --time 2005-01-25T00:30 --no-sun-disc -o moonlight.exr
     skyprobe render --lat 55.71 --lon 13.19 --time 2005-01-25T00:30 --layer sky=0 --layer zodiacal=0 --layer airglow=0 \\
@@ -41,7 +43,7 @@ Examples:
     skyprobe render --config lund.json --width 512
 
 The image: linear; a latitude-longitude map has the zenith in row 0, north at 1/4 of the width, east in the centre,
-south at 3/4. Files appear whole or not at all. The EXR header holds the whole configuration.
+south at 3/4, unless --turn or --centre turn it. Files appear whole or not at all. The EXR header holds the whole configuration.
 ";
 
 /// Options of `skyprobe render`.
@@ -122,6 +124,12 @@ struct ImageOptions {
     /// full sphere, or the upper half. Default: full.
     #[arg(long, value_name = "NAME", help_heading = IMAGE)]
     extent: Option<String>,
+    /// Turn the sky in the picture clockwise as seen from above, to the right, by this angle, -360 to 360 [degrees]. Default: 0.
+    #[arg(long, value_name = "DEG", help_heading = IMAGE)]
+    turn: Option<f64>,
+    /// Turn the sky so that the sun, the moon or an azimuth [degrees] stands in the middle column of a latlong picture, away from its seam.
+    #[arg(long, value_name = "sun|moon|DEG", conflicts_with = "turn", help_heading = IMAGE)]
+    centre: Option<String>,
     /// What is seen below the horizon: on (the lit ground), off (black) or mirrored (the sky again). Default: on.
     #[arg(long, value_name = "NAME", help_heading = IMAGE)]
     ground_view: Option<String>,
@@ -157,6 +165,7 @@ impl ImageOptions {
         if let Some(name) = &self.extent {
             probe.extent = name.parse()?;
         }
+        probe.turn_deg = self.turn.unwrap_or(probe.turn_deg);
         if let Some(name) = &self.ground_view {
             probe.ground = name.parse()?;
         }
@@ -173,6 +182,23 @@ impl ImageOptions {
             probe.gamut = json::word("gamut", name)?;
         }
         Ok(())
+    }
+
+    /// The turn that brings what is asked for into the middle of the picture; `None` if nothing is.
+    fn turn_to_centre(&self, sky: &Sky) -> Result<Option<f64>> {
+        let Some(text) = &self.centre else { return Ok(None) };
+        let azimuth_deg = match (text.as_str(), sky.bodies_of_place()) {
+            ("sun", _) => sky.sun().azimuth_deg,
+            ("moon", Some(bodies)) => bodies.moon.body.azimuth_deg,
+            ("moon", None) => return Err(Error::input("centre", "moon", "sun or an azimuth for a sky without place and time")),
+            _ => match text.parse() {
+                Ok(azimuth_deg) => azimuth_deg,
+                Err(_) => {
+                    return Err(Error::input("centre", format!("{text:?}"), "sun, moon or an azimuth from -360 to 360 degrees"));
+                }
+            },
+        };
+        ProbeSettings::turn_to_centre(azimuth_deg).map(Some)
     }
 }
 
@@ -192,6 +218,7 @@ impl Options {
             }
             config.output.push(preview.clone());
         }
+        config.output = distinct(&config.output).into_iter().map(Path::to_path_buf).collect();
         if let Some(name) = &self.model {
             config.light.model = name.parse()?;
         }
@@ -250,13 +277,19 @@ const SAMPLE_MAP_WIDTH: usize = 1024;
 
 /// Renders, and writes the files.
 pub fn run(options: &Options) -> Result<()> {
-    let config = options.config()?;
+    let mut config = options.config()?;
     let inputs = options.config.input();
     if options.config.dump_config {
         files::check(inputs.as_slice(), &[])?;
-        return say(&config.to_json());
+    }
+    if options.config.dump_config && options.image.centre.is_none() {
+        return answer(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
+    config.probe.turn_deg = options.image.turn_to_centre(&sky)?.unwrap_or(config.probe.turn_deg);
+    if options.config.dump_config {
+        return answer(&config.to_json());
+    }
     if config.output.is_empty() && options.sample_map.is_none() {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
@@ -274,7 +307,7 @@ pub fn run(options: &Options) -> Result<()> {
         let mut others = Vec::new();
         if let Some(path) = &options.sample_map {
             let light = sky.filtered_light(config.light.polarising_filter.as_ref(), config.light.tolerance, progress)?;
-            let map = SampleMap::new(&light, SAMPLE_MAP_WIDTH, progress)?;
+            let map = SampleMap::new(&light, SAMPLE_MAP_WIDTH, config.probe.turn_deg, progress)?;
             if config.output.is_empty() {
                 return map.save(path, progress);
             }

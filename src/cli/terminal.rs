@@ -58,7 +58,9 @@ fn end(is_done: bool) -> ! {
 pub fn with_progress<T>(work: impl FnOnce(&Progress<'_>) -> Result<T>) -> Result<T> {
     WORKING.fetch_add(1, Ordering::SeqCst);
     atomic::begin();
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr_with_hz(10));
+    let quiet = super::QUIET.load(Ordering::Relaxed);
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
+    let bar = ProgressBar::with_draw_target(Some(1000), target);
     if let Ok(style) = ProgressStyle::with_template("{prefix:>8} [{bar:40}] {percent:>3} % {elapsed}") {
         bar.set_style(style.progress_chars("=> "));
     }

@@ -1,6 +1,7 @@
 //! `skyprobe tonemap`: from light to a screen.
 
 use super::picture_options::{PictureOptions, repairs_in_words};
+use super::seconds::seconds;
 use super::{files, say, terminal};
 use crate::error::{Error, Result};
 use crate::io::{Depth, Format, each_once, write_sheet, write_toned};
@@ -19,7 +20,7 @@ Examples:
   A scene by another operator, a stop brighter, 16 bits:
     skyprobe tonemap scene.exr scene.png --operator filmic --set contrast=2.8 --exposure 1 --depth 16
   As a camera at f/8, 1/250 s, ISO 100 would have it:
-    skyprobe tonemap scene.exr scene.png --operator exposure --aperture 8 --shutter 0.004 --iso 100
+    skyprobe tonemap scene.exr scene.png --operator exposure --aperture 8 --shutter 1/250 --iso 100
   All operators on one sheet:
     skyprobe tonemap scene.exr sheet.png --compare
   A time-lapse from day to night, 24 frames a second, into an existing folder:
@@ -61,8 +62,8 @@ pub struct Options {
     /// Exposure as of a camera: f-number, with --shutter.
     #[arg(long, value_name = "N", requires = "shutter", conflicts_with_all = ["exposure", "ev"], help_heading = EXPOSURE)]
     aperture: Option<f64>,
-    /// Shutter time [s], with --aperture.
-    #[arg(long, value_name = "S", requires = "aperture", help_heading = EXPOSURE)]
+    /// Shutter time, with --aperture, such as 0.004 or 1/250 [s].
+    #[arg(long, value_name = "S", value_parser = seconds, requires = "aperture", help_heading = EXPOSURE)]
     shutter: Option<f64>,
     /// Sensitivity, with --aperture. Default: 100.
     #[arg(long, value_name = "ISO", requires = "aperture", help_heading = EXPOSURE)]
@@ -83,13 +84,13 @@ pub struct Options {
     #[arg(long, value_name = "SUFFIX", default_value = "png", help_heading = SEQUENCE)]
     format: String,
     /// Time between two pictures, over which the eye adapts from one to the next [s]. Default: 1/24.
-    #[arg(long, value_name = "S", help_heading = SEQUENCE)]
+    #[arg(long, value_name = "S", value_parser = seconds, help_heading = SEQUENCE)]
     frame_seconds: Option<f64>,
     /// Time constant of adaptation to light [s]. Default: 0.5.
-    #[arg(long, value_name = "S", default_value_t = 0.5, help_heading = SEQUENCE)]
+    #[arg(long, value_name = "S", value_parser = seconds, default_value = "0.5", help_heading = SEQUENCE)]
     light_seconds: f64,
     /// Time constant of adaptation to darkness [s]. Default: 1.
-    #[arg(long, value_name = "S", default_value_t = 1.0, help_heading = SEQUENCE)]
+    #[arg(long, value_name = "S", value_parser = seconds, default_value = "1", help_heading = SEQUENCE)]
     dark_seconds: f64,
     #[command(flatten)]
     picture: PictureOptions,

@@ -174,6 +174,10 @@ fn own_fields(settings: &ProbeSettings, metadata: &Metadata) -> Vec<(String, Str
     if settings.projection == Projection::LatLong {
         fields.push(("rows", settings.rows.name().to_owned()));
     }
+    // Absent in pictures that are not turned, as in those of other programs.
+    if settings.turn_deg != 0.0 {
+        fields.push(("turn_deg", settings.turn_deg.to_string()));
+    }
     for (name, value) in [("sun_altitude_deg", metadata.sun_altitude_deg), ("sun_azimuth_deg", metadata.sun_azimuth_deg)] {
         if let Some(value) = value {
             fields.push((name, format!("{value:.6}")));

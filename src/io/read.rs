@@ -5,6 +5,7 @@
 //! | colour space | the caller; channels X Y Z or chromaticities (EXR), PRIMARIES or FORMAT (HDR), if they make a space; Rec. 709. Primaries of none of our spaces are converted to Rec. 709 |
 //! | luminance of 1.0 | the caller; `skyprobe.white_luminance`, `whiteLuminance`, `skyprobe.scale`, the first that can be one; 683 cd m-2, as Blender's physical sky, which [`Picture::assumption`] tells |
 //! | projection | the caller; `envmap` (EXR); `skyprobe.projection`; perspective, also for 2:1 |
+//! | turn | `skyprobe.turn_deg`; none |
 //! | rows, field of view | the caller; `skyprobe.rows`, `skyprobe.field_of_view_deg`; centre, and 39.6 degrees, Blender's first camera |
 
 use super::{PictureLimits, exr, hdr};
@@ -98,8 +99,14 @@ fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
         }),
     };
     let luminance = known.unwrap_or(Scale::default().white_luminance());
+    let turn_deg = raw.fields.get("skyprobe.turn_deg").map_or(Ok(0.0), |text| number("skyprobe.turn_deg", text))?;
     let picture = Picture::new(raw.width, raw.height, pixels, color_space, luminance, view)?;
-    Ok(Picture { white_luminance_assumed: known.is_none(), notes, ..picture })
+    Ok(Picture {
+        white_luminance_assumed: known.is_none(),
+        notes,
+        turn_deg: if turn_deg.is_finite() { turn_deg } else { 0.0 },
+        ..picture
+    })
 }
 
 /// A picture with the standard attribute `envmap` as a latitude-longitude picture of ours, unless the caller knows it for another.

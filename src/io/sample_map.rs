@@ -25,17 +25,18 @@ pub struct SampleMap {
 
 impl SampleMap {
     /// The picture for `dome`, `width` pixels wide: its tone-mapped light at a third of its brightness, without the Sun's disc, and a white point in each direction that was gathered. These lie on one
-    /// side of the Sun, as the other follows by symmetry.
+    /// side of the Sun, as the other follows by symmetry. The sky is turned by `turn_deg`, as [`ProbeSettings::turn_deg`].
     ///
     /// # Errors
     /// As [`probe::render`].
-    pub fn new(dome: &SkyDome, width: usize, progress: &Progress) -> Result<Self> {
-        let probe = probe::render(dome, &ProbeSettings { width, sun_disc: false, ..Default::default() }, progress)?;
+    pub fn new(dome: &SkyDome, width: usize, turn_deg: f64, progress: &Progress) -> Result<Self> {
+        let settings = ProbeSettings { width, turn_deg, sun_disc: false, ..Default::default() };
+        let probe = probe::render(dome, &settings, progress)?;
         let mapper = ToneMapper::new(Frame::from(&probe), &ToneMapping::default(), progress)?;
         let mut pixels: Vec<u8> = mapper.to_8_bits(progress)?.into_iter().map(|value| value / 3).collect();
         let (width, height, size) = (probe.width, probe.height, 1 + width / PIXELS_PER_POINT);
         for [altitude, azimuth] in dome.sample_directions() {
-            let across = ((0.25 + azimuth / TAU).rem_euclid(1.0) * width as f64) as usize;
+            let across = ((0.25 + azimuth / TAU + turn_deg / 360.0).rem_euclid(1.0) * width as f64) as usize;
             let down = ((0.5 - altitude / PI) * height as f64) as usize;
             // The last circle is a point, the zenith or the nadir, drawn as a line as everything there is.
             for row in down..(down + size).min(height) {

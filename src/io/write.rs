@@ -116,5 +116,8 @@ fn fields(picture: &Picture) -> Vec<(String, String)> {
             fields.push(("field_of_view_deg", angle.to_string()));
         }
     }
+    if picture.turn_deg != 0.0 {
+        fields.push(("turn_deg", picture.turn_deg.to_string()));
+    }
     fields.into_iter().map(|(name, value)| (format!("skyprobe.{name}"), value)).collect()
 }

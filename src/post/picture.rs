@@ -148,6 +148,8 @@ pub struct Picture {
     pub view: View,
     /// What the header that it came with says and nobody understands, so that it was left aside, a sentence each.
     pub notes: Vec<String>,
+    /// How far a sky in it is turned clockwise, as [`ProbeSettings::turn_deg`] [degrees]: nothing here depends on it, but what is made of the picture is turned as well.
+    pub turn_deg: f64,
 }
 
 /// What is assumed of a picture that does not say it: the default of [`Scale`].
@@ -157,7 +159,7 @@ pub(crate) const ASSUMPTION: &str = "white luminance unknown: 683 cd/m2 assumed 
 pub(crate) const WHITE_LUMINANCES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 impl Picture {
-    /// A picture of given `pixels`, row-major (height, width, 3).
+    /// A picture of given `pixels`, row-major (height, width, 3), not turned.
     ///
     /// # Errors
     /// [`Error::Input`] for a size, `white_luminance` or field of view that no picture has; [`Error::Data`] if the number of values is not that of the size.
@@ -191,7 +193,17 @@ impl Picture {
                 3 * width * height
             )));
         }
-        Ok(Self { width, height, pixels, color_space, white_luminance, white_luminance_assumed: false, view, notes: Vec::new() })
+        Ok(Self {
+            width,
+            height,
+            pixels,
+            color_space,
+            white_luminance,
+            white_luminance_assumed: false,
+            view,
+            notes: Vec::new(),
+            turn_deg: 0.0,
+        })
     }
 
     /// What is to be told of a luminance that had to be assumed; `None` if it was said.
@@ -229,6 +241,7 @@ impl From<Probe> for Picture {
         let settings = &probe.settings;
         let view = View::of(settings);
         let (color_space, white_luminance) = (settings.color_space, Scale::white_luminance(settings.scale));
+        let turn_deg = settings.turn_deg;
         Self {
             width: probe.width,
             height: probe.height,
@@ -238,6 +251,7 @@ impl From<Probe> for Picture {
             white_luminance_assumed: false,
             view,
             notes: Vec::new(),
+            turn_deg,
         }
     }
 }

@@ -111,7 +111,7 @@ fn cover(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> (Raster, Option<Tar
     let (row_knots, column_step) = knots(disc, grid);
     let column_knots = |theta: f64, from: f64, to: f64, out: &mut Vec<f64>| {
         let (step, offset) = match grid {
-            Grid::LatLong(image) => (column_step, image.column_knot_offset()),
+            Grid::LatLong(image) => (column_step, (image.azimuth(image.column_knot_offset()) / column_step).rem_euclid(1.0)),
             Grid::Fisheye(_) => (column_step / theta.sin().max(0.01), 0.0),
         };
         let first = (from / step - offset).floor() + 1.0;

@@ -3,7 +3,7 @@
 //! The image is the sky as a camera sees it that lies on its back with its top towards north: zenith in the centre, **north up,
 //! east to the left**. With r = theta / reach, 0 in the centre and 1 on the largest circle that fits:
 //! ```text
-//! x = W / 2 (1 - r sin(azimuth)),   y = W / 2 (1 - r cos(azimuth))
+//! x = W / 2 (1 - r sin(azimuth + turn)),   y = W / 2 (1 - r cos(azimuth + turn))
 //! ```
 //! `reach` is pi / 2 for the upper half, so that the horizon is the unit circle, and pi for the whole sphere, so that the nadir is.
 //! Pixels outside the circle are black and stand for nothing. The element of solid angle is
@@ -18,6 +18,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub struct Fisheye {
     width: usize,
     reach: f64,
+    /// Cosine and sine of the angle by which the sky is turned clockwise, seen from above.
+    turn: (f64, f64),
 }
 
 impl Fisheye {
@@ -27,7 +29,13 @@ impl Fisheye {
             Extent::Full => PI,
             Extent::Upper => FRAC_PI_2,
         };
-        Self { width, reach }
+        Self { width, reach, turn: (1.0, 0.0) }
+    }
+
+    /// The same with the sky turned clockwise by `turn_deg` [degrees] as seen from above: counterclockwise in the image, which looks up.
+    pub fn turned(self, turn_deg: f64) -> Self {
+        let (sine, cosine) = turn_deg.to_radians().sin_cos();
+        Self { turn: (cosine, sine), ..self }
     }
 
     /// Width and height [pixels].
@@ -56,6 +64,8 @@ impl Fisheye {
         let theta = radius * self.reach;
         // sin(theta) / r, which is `reach` in the centre.
         let ratio = if theta < 1e-9 { self.reach } else { theta.sin() / radius };
+        let (cosine, sine) = self.turn;
+        let (east, north) = (east * cosine - north * sine, north * cosine + east * sine);
         Some((DVec3::new(ratio * east, ratio * north, theta.cos()), ratio * self.reach / (half * half)))
     }
 
@@ -65,7 +75,9 @@ impl Fisheye {
         let radius = sine.atan2(direction.z) / self.reach;
         let ratio = if sine < 1e-12 { 0.0 } else { radius / sine };
         let half = 0.5 * self.width as f64;
-        (half * (1.0 - ratio * direction.x), half * (1.0 - ratio * direction.y))
+        let (cosine, sine) = self.turn;
+        let (east, north) = (direction.x * cosine + direction.y * sine, direction.y * cosine - direction.x * sine);
+        (half * (1.0 - ratio * east), half * (1.0 - ratio * north))
     }
 
     /// Range of zenith angles [radians] that pixel (`column`, `row`) covers, within the circle.

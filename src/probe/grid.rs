@@ -29,8 +29,10 @@ impl Grid {
     /// The geometry of an image with valid `settings`.
     pub fn new(settings: &ProbeSettings) -> Self {
         match settings.projection {
-            Projection::LatLong => Self::LatLong(LatLong::new(settings.width, settings.rows, settings.extent)),
-            Projection::Fisheye => Self::Fisheye(Fisheye::new(settings.width, settings.extent)),
+            Projection::LatLong => {
+                Self::LatLong(LatLong::new(settings.width, settings.rows, settings.extent).turned(settings.turn_deg))
+            }
+            Projection::Fisheye => Self::Fisheye(Fisheye::new(settings.width, settings.extent).turned(settings.turn_deg)),
         }
     }
 

@@ -1,8 +1,7 @@
 //! A rendered probe: pixels, and what they mean.
 
 use super::grid::Grid;
-use super::quadrature::GaussLegendre;
-use super::settings::{ProbeSettings, Rows};
+use super::settings::ProbeSettings;
 use crate::error::{Error, Result};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -79,68 +78,11 @@ impl Probe {
     /// Irradiance of a plane that faces `normal` (east, north, up; any length but 0): the integral of the pixels over their
     /// footprints times the cosine, in the probe's colour space and scale times sr.
     pub fn irradiance(&self, normal: DVec3) -> [f64; 3] {
-        let normal = normal.normalize_or_zero();
-        let grid = self.grid();
-        let rule = GaussLegendre::new(6);
-        (0..self.height)
-            .into_par_iter()
-            .map(|row| {
-                let mut sum = [0.0; 3];
-                for column in 0..self.width {
-                    let pixel = self.pixel(column, row);
-                    if pixel == [0.0; 3] {
-                        continue;
-                    }
-                    let weight = cosine_weight(&grid, &rule, column, row, normal);
-                    for (sum, value) in sum.iter_mut().zip(pixel) {
-                        *sum += weight * f64::from(value);
-                    }
-                }
-                sum
-            })
-            .reduce(|| [0.0; 3], |a, b| [a[0] + b[0], a[1] + b[1], a[2] + b[2]])
+        self.irradiances(&[normal])[0]
     }
-}
 
-/// Integral of max(normal . direction, 0) over the footprint of a pixel [sr].
-fn cosine_weight(grid: &Grid, rule: &GaussLegendre, column: usize, row: usize, normal: DVec3) -> f64 {
-    let image = match grid {
-        Grid::LatLong(image) => image,
-        Grid::Fisheye(image) => {
-            let mut sum = 0.0;
-            image.visit_parts(column, row, image.parts(column, row), |direction, weight| {
-                sum += weight * normal.dot(direction).max(0.0)
-            });
-            return sum;
-        }
-    };
-    let found = &image.table()[row];
-    if normal == DVec3::Z {
-        return found.solid_angle * found.mean_upward;
+    /// Irradiance of planes that face `normals`, in their order, each as [`Self::irradiance`] gives it: the pixels are gone through once for thousands of them.
+    pub fn irradiances(&self, normals: &[DVec3]) -> Vec<[f64; 3]> {
+        super::received::irradiances(self, normals)
     }
-    if normal == -DVec3::Z {
-        return found.solid_angle * (found.mean_upward - found.mean_cosine);
-    }
-    let mean = normal.dot(image.mean_direction(column, row));
-    let reach = if image.rows() == Rows::Centre { 0.5 } else { 1.0 };
-    let half_column = reach * std::f64::consts::TAU / image.width() as f64;
-    if mean.abs() > 1.1 * ((found.to - found.from) + half_column) {
-        return found.solid_angle * mean.max(0.0);
-    }
-    // The plane cuts the footprint.
-    let parts = 16;
-    let (mut sum, mut total) = (0.0, 0.0);
-    for piece in [(found.from, found.theta), (found.theta, found.to)] {
-        for (theta, weight) in rule.on(piece.0, piece.1) {
-            let weight = weight * theta.sin() * image.row_weight(found, theta);
-            for k in 0..parts {
-                let offset = 2.0 * reach * ((k as f64 + 0.5) / parts as f64 - 0.5);
-                let weight = if image.rows() == Rows::Centre { weight } else { weight * (1.0 - offset.abs()) };
-                let direction = super::latlong::direction(theta, image.azimuth(column as f64 + 0.5 + offset));
-                total += weight;
-                sum += weight * normal.dot(direction).max(0.0);
-            }
-        }
-    }
-    found.solid_angle * sum / total
 }

@@ -3,7 +3,7 @@
 //! Continuous image coordinates (x, y) count pixels from the upper left corner; the middle of pixel (i, j) is (i + 0.5, j + 0.5).
 //! With azimuth from north through east and theta the zenith angle:
 //! ```text
-//! x / W = 1/4 + azimuth / 2 pi        (north at 1/4, east in the middle, south at 3/4, west at the seam)
+//! x / W = 1/4 + (azimuth + turn) / 2 pi    (without turn north at 1/4, east in the middle, south at 3/4, west at the seam)
 //! theta = span y / H                  rows = centre (Blender)
 //! theta = span (y - 0.5) / (H - 1)    rows = corner (Mitsuba: the first and the last row are the poles)
 //! ```
@@ -50,6 +50,8 @@ pub struct LatLong {
     span: f64,
     step: f64,
     table: Vec<Row>,
+    /// Columns by which the sky is turned to the right.
+    turn: f64,
 }
 
 impl LatLong {
@@ -63,10 +65,18 @@ impl LatLong {
             Rows::Centre => span / height as f64,
             Rows::Corner => span / (height - 1) as f64,
         };
-        let mut image = Self { width, rows, span, step, table: Vec::new() };
+        let mut image = Self { width, rows, span, step, table: Vec::new(), turn: 0.0 };
         let rule = GaussLegendre::new(8);
         image.table = (0..height).map(|j| image.make_row(j, height, &rule)).collect();
         image
+    }
+
+    /// The same with the sky turned clockwise by `turn_deg` [degrees], to the right in the image.
+    pub fn turned(self, turn_deg: f64) -> Self {
+        let columns = turn_deg / 360.0 * self.width as f64;
+        // Whole columns stay whole, so that such a picture is the other one rolled.
+        let turn = if (columns - columns.round()).abs() < 1e-9 * self.width as f64 { columns.round() } else { columns };
+        Self { turn, ..self }
     }
 
     fn make_row(&self, j: usize, height: usize, rule: &GaussLegendre) -> Row {
@@ -157,12 +167,13 @@ impl LatLong {
 
     /// Azimuth [radians] of the continuous column coordinate `x`.
     pub fn azimuth(&self, x: f64) -> f64 {
-        TAU * (x / self.width as f64 - 0.25)
+        TAU * ((x - self.turn) / self.width as f64 - 0.25)
     }
 
     /// Column coordinate in [0, W) of an azimuth [radians].
     pub fn x_of_azimuth(&self, azimuth: f64) -> f64 {
-        let x = (azimuth / TAU + 0.25).rem_euclid(1.0) * self.width as f64;
+        let width = self.width as f64;
+        let x = ((azimuth / TAU + 0.25).rem_euclid(1.0) * width + self.turn).rem_euclid(width);
         if x >= self.width as f64 { 0.0 } else { x }
     }
 
@@ -215,7 +226,7 @@ impl LatLong {
         self.table.iter().map(knot).chain([self.span])
     }
 
-    /// Offset of the column knots from whole columns: 0 at cell edges, 0.5 at pixel centres where tents have their kinks.
+    /// Column coordinate of the first of the column knots, which are whole columns apart: cell edges, or pixel centres, where tents have their kinks.
     pub(crate) fn column_knot_offset(&self) -> f64 {
         if self.rows == Rows::Centre { 0.0 } else { 0.5 }
     }

@@ -15,6 +15,7 @@ mod moments;
 mod painter;
 mod points;
 mod quadrature;
+mod received;
 mod render;
 mod settings;
 #[cfg(test)]

@@ -98,6 +98,10 @@ pub struct ProbeSettings {
     pub rows: Rows,
     /// The whole sphere or its upper half.
     pub extent: Extent,
+    /// How far the sky in the image is turned clockwise as seen from above, -360 to 360 [degrees]: what stands at an azimuth is drawn where azimuth + turn would be,
+    /// in a latitude-longitude image turn / 360 of the width further right. Directions, such as the Sun's azimuth, stay those of the world.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub turn_deg: f64,
     /// What is seen below the horizon.
     pub ground: GroundView,
     /// Whether the Sun's disc is drawn; other bodies always are.
@@ -117,6 +121,7 @@ impl Default for ProbeSettings {
             projection: Projection::default(),
             rows: Rows::default(),
             extent: Extent::default(),
+            turn_deg: 0.0,
             ground: GroundView::default(),
             sun_disc: true,
             scale: Scale::default(),
@@ -126,7 +131,21 @@ impl Default for ProbeSettings {
     }
 }
 
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 impl ProbeSettings {
+    /// The turn that brings an azimuth into the middle of a latitude-longitude image [degrees], -180 to 180.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for `centre` outside -360 to 360 degrees.
+    pub fn turn_to_centre(azimuth_deg: f64) -> Result<f64> {
+        check_range("centre", azimuth_deg, -360.0, 360.0, "degrees")?;
+        let turn = (90.0 - azimuth_deg).rem_euclid(360.0);
+        Ok(if turn > 180.0 { turn - 360.0 } else { turn })
+    }
+
     /// Height of the image [pixels]: width for a fisheye; for latitude-longitude half of the width, or a quarter for the upper half.
     pub fn height(&self) -> usize {
         match (self.projection, self.extent) {
@@ -139,8 +158,9 @@ impl ProbeSettings {
     /// Checks that an image of these settings can be made.
     ///
     /// # Errors
-    /// [`Error::Input`] that names the width, if it is out of range or does not divide into whole rows.
+    /// [`Error::Input`] that names the width, if it is out of range or does not divide into whole rows, or the turn, if it is out of range.
     pub fn validate(&self) -> Result<()> {
+        check_range("turn_deg", self.turn_deg, -360.0, 360.0, "degrees")?;
         check_range("width", self.width as f64, MIN_WIDTH as f64, MAX_WIDTH as f64, "pixels")?;
         if !self.width.is_multiple_of(2) {
             return Err(Error::input("width", self.width, "even"));

@@ -266,3 +266,77 @@ fn the_disc_is_round_sharp_and_darker_at_its_limb_when_pixels_are_small() {
     assert!((limb / brightest - 0.66).abs() < 0.06, "{}", limb / brightest);
     assert!(outside < 0.02 * brightest, "{}", outside / brightest);
 }
+
+/// A sky of patches with a Sun and stars, one of them behind the seam.
+struct Patches;
+
+impl SkyLight for Patches {
+    fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
+        for (out, &azimuth) in out.iter_mut().zip(azimuths) {
+            let light = 2.0 + (3.0 * azimuth + 5.0 * altitude).sin() + (11.0 * azimuth).cos() * altitude.cos();
+            *out = [0.9 * light as f32, light as f32, 1.2 * light as f32];
+        }
+    }
+
+    fn horizon_altitude(&self) -> f64 {
+        -0.01
+    }
+
+    fn discs(&self) -> Vec<Disc> {
+        vec![sun(1.2, -FRAC_PI_2), sun(0.01, 0.3)]
+    }
+
+    fn points(&self) -> Vec<crate::sky::Point> {
+        let at = |theta, azimuth| crate::sky::Point { direction: direction(theta, azimuth), irradiance: [1e-3, 2e-3, 3e-3] };
+        vec![at(0.7, 1.0), at(1.3, -FRAC_PI_2 - 1e-3), at(1.5, -FRAC_PI_2 + 1e-3)]
+    }
+}
+
+/// Largest difference of a value from that of another picture, in shares of it and of the mean.
+fn difference(a: &[f32], b: &[f32]) -> f64 {
+    let mean = a.iter().map(|&value| f64::from(value)).sum::<f64>() / a.len() as f64;
+    a.iter().zip(b).map(|(a, b)| f64::from(a - b).abs() / (f64::from(*a) + mean)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_picture_turned_by_whole_columns_is_the_picture_rolled() {
+    for (width, columns) in [(64_usize, 1_i32), (64, 17), (66, 5), (512, 128), (512, -200), (2048, 1000)] {
+        for rows in [Rows::Centre, Rows::Corner] {
+            let plain = made(&Patches, &settings(width, rows));
+            let turn_deg = 360.0 * f64::from(columns) / width as f64;
+            let turned = made(&Patches, &ProbeSettings { turn_deg, ..settings(width, rows) });
+            let mut rolled = plain.pixels.clone();
+            for row in rolled.chunks_exact_mut(3 * width) {
+                row.rotate_right(3 * columns.rem_euclid(width as i32) as usize);
+            }
+            let off = difference(&rolled, &turned.pixels);
+            assert!(off < 1e-5, "{width} {columns} {rows:?}: {off}");
+        }
+    }
+}
+
+#[test]
+fn the_light_of_the_world_does_not_turn_with_the_picture() {
+    for projection in [Projection::LatLong, Projection::Fisheye] {
+        let with = |turn_deg| ProbeSettings { projection, turn_deg, ..settings(256, Rows::Centre) };
+        let plain = made(&Patches, &with(0.0));
+        for turn_deg in [90.0, -33.3, 360.0, 0.7] {
+            let turned = made(&Patches, &with(turn_deg));
+            for normal in [DVec3::X, DVec3::NEG_Y, DVec3::Z, DVec3::new(0.3, -0.5, 0.4)] {
+                let (before, after) = (plain.irradiance(normal)[1], turned.irradiance(normal)[1]);
+                assert!((after / before - 1.0).abs() < 2e-4, "{projection:?} {turn_deg} {normal}: {before} {after}");
+            }
+            // What stands at an azimuth is drawn where azimuth + turn would be.
+            let there = direction(0.9, 0.4);
+            let (a, b) =
+                (turned.grid().coordinates(there), plain.grid().coordinates(direction(0.9, 0.4 + turn_deg.to_radians())));
+            assert!((a.0 - b.0).abs() < 1e-6 && (a.1 - b.1).abs() < 1e-6, "{projection:?} {turn_deg}: {a:?} {b:?}");
+            assert!(turned.grid().direction(a.0, a.1).unwrap().distance(there) < 1e-9);
+        }
+    }
+    let fail = ProbeSettings { turn_deg: 361.0, ..Default::default() }.validate().unwrap_err().to_string();
+    assert!(fail.starts_with("turn_deg = 361: must be a number from -360 to 360 degrees"), "{fail}");
+    for (azimuth, turn) in [(90.0, 0.0), (270.0, 180.0), (180.0, -90.0), (-10.0, 100.0), (359.0, 91.0)] {
+        assert_eq!(ProbeSettings::turn_to_centre(azimuth).unwrap(), turn);
+    }
+}

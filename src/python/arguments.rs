@@ -22,8 +22,14 @@ pub fn layer_scales(layers: &Bound<'_, PyMapping>) -> PyResult<LayerScales> {
     Ok(LayerScales(layers.items()?.iter().map(factor).collect::<PyResult<_>>()?))
 }
 
-/// The settings that names and a number ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
-pub fn probe_settings(width: i64, layout: [&str; 4], sun_disc: bool, colour: [&str; 3]) -> PyResult<ProbeSettings> {
+/// The settings that names and numbers ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
+pub fn probe_settings(
+    width: i64,
+    layout: [&str; 4],
+    turn_deg: f64,
+    sun_disc: bool,
+    colour: [&str; 3],
+) -> PyResult<ProbeSettings> {
     let ([projection, rows, extent, ground], [scale, color_space, gamut]) = (layout, colour);
     let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
     let settings = ProbeSettings {
@@ -31,6 +37,7 @@ pub fn probe_settings(width: i64, layout: [&str; 4], sun_disc: bool, colour: [&s
         projection: projection.parse()?,
         rows: rows.parse()?,
         extent: extent.parse()?,
+        turn_deg,
         ground: ground.parse()?,
         sun_disc,
         scale: scale.parse()?,
@@ -71,4 +78,18 @@ pub fn unit_vectors(directions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
             Err(InputError::new_err(format!("directions[{index}] = ({x}, {y}, {z}): must be a vector of length 1")))
         })
         .collect()
+}
+
+/// Vectors (east, north, up) of any length but 0, and whether a single one came without the first dimension.
+pub fn vectors(parameter: &str, given: &Bound<'_, PyAny>) -> PyResult<(Vec<DVec3>, bool)> {
+    let (triples, alone) = arrays::triples_or_one(parameter, given)?;
+    let vectors: Vec<DVec3> = triples.into_iter().map(DVec3::from).collect();
+    match vectors.iter().position(|vector| !vector.is_finite() || vector.length() <= 0.0) {
+        None => Ok((vectors, alone)),
+        Some(index) => {
+            let DVec3 { x, y, z } = vectors[index];
+            let name = if alone { parameter.to_owned() } else { format!("{parameter}[{index}]") };
+            Err(InputError::new_err(format!("{name} = ({x}, {y}, {z}): must be a vector (east, north, up) longer than 0")))
+        }
+    }
 }

@@ -74,9 +74,17 @@ pub fn expect_rows(parameter: &str, array: &Values, columns: usize) -> PyResult<
 
 /// Vectors of three components, shape (N, 3); a single one may come without the first dimension.
 pub fn triples(parameter: &str, argument: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 3]>> {
+    triples_or_one(parameter, argument).map(|(triples, _)| triples)
+}
+
+/// The same, and whether it was a single one without the first dimension.
+pub fn triples_or_one(parameter: &str, argument: &Bound<'_, PyAny>) -> PyResult<(Vec<[f64; 3]>, bool)> {
     let array = floats(parameter, argument)?;
     match array.shape[..] {
-        [3] | [_, 3] => Ok(array.values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect()),
+        [3] | [_, 3] => {
+            let triples = array.values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect();
+            Ok((triples, array.shape.len() == 1))
+        }
         _ => Err(wrong_shape(parameter, &array.shape, "shape (N, 3)")),
     }
 }

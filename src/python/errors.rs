@@ -18,6 +18,12 @@ create_exception!(
     PyUserWarning,
     "The luminance that a picture's numbers stand for was not said, and had to be assumed: glare and tone mapping depend on it."
 );
+create_exception!(
+    skyprobe,
+    SunlightOnlyWarning,
+    PyUserWarning,
+    "A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."
+);
 
 impl From<Error> for PyErr {
     fn from(error: Error) -> Self {

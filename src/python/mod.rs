@@ -30,6 +30,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("DataError", py.get_type::<errors::DataError>())?;
     module.add("Cancelled", py.get_type::<errors::Cancelled>())?;
     module.add("ScaleWarning", py.get_type::<errors::ScaleWarning>())?;
+    module.add("SunlightOnlyWarning", py.get_type::<errors::SunlightOnlyWarning>())?;
     module.add_class::<air::Atmosphere>()?;
     module.add_class::<air::Component>()?;
     module.add_class::<air::Phase>()?;

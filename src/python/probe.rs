@@ -1,6 +1,6 @@
 //! `Probe`.
 
-use super::arrays;
+use super::arguments::vectors;
 use super::errors::InputError;
 use super::work;
 use crate::error::Result;
@@ -97,6 +97,12 @@ impl Probe {
         self.settings.extent.name()
     }
 
+    /// As asked for in ``Sky.render``. [degrees]
+    #[getter]
+    fn turn_deg(&self) -> f64 {
+        self.settings.turn_deg
+    }
+
     /// As asked for in ``Sky.render``.
     #[getter]
     fn ground(&self) -> &'static str {
@@ -156,20 +162,23 @@ impl Probe {
         work::run(py, progress, |progress| io::save_with_progress(&path, &probe, (&options, &self.metadata), progress))
     }
 
-    /// Irradiance of a plane: the integral of pixels times cosine, in the probe's units times sr.
+    /// Irradiance of planes: the integral of pixels times cosine, in the probe's units times sr. One plane gives a tuple of three, planes of shape (N, 3) an
+    /// array of that shape: a thousand cost little more than one.
     ///
     /// Parameters
     /// ----------
     /// normal
-    ///     Vector (east, north, up) that the plane faces; up by default.
+    ///     Vector (east, north, up) that the plane faces, of any length but 0, or several of them, shape (N, 3); up by default.
     #[pyo3(signature = (normal = None))]
-    fn irradiance(&self, py: Python<'_>, normal: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, f64, f64)> {
-        let normal = match normal {
-            None => DVec3::Z,
-            Some(given) => one_direction("normal", given)?,
-        };
+    fn irradiance(&self, py: Python<'_>, normal: Option<&Bound<'_, PyAny>>) -> PyResult<Py<PyAny>> {
+        let (normals, alone) = normal.map_or(Ok((vec![DVec3::Z], true)), |given| vectors("normal", given))?;
         let probe = self.snapshot(py)?;
-        Ok(work::run(py, None, |_| Ok(probe.irradiance(normal)))?.into())
+        let found = work::run(py, None, |_| Ok(probe.irradiances(&normals)))?;
+        if let ([rgb], true) = (&found[..], alone) {
+            return Ok((rgb[0], rgb[1], rgb[2]).into_pyobject(py)?.into_any().unbind());
+        }
+        let shape = [found.len(), 3];
+        Ok(PyArray1::from_vec(py, found.into_flattened()).reshape(shape)?.into_any().unbind())
     }
 
     fn __repr__(&self) -> String {
@@ -187,12 +196,4 @@ pub fn read_half(half: &Bound<'_, PyAny>) -> PyResult<Half> {
         .extract()
         .map_err(|_| InputError::new_err(format!("half = {half}: must be True, False, \"refuse\" or \"scale\"")))?;
     Ok(if on { Half::Refuse } else { Half::Off })
-}
-
-fn one_direction(parameter: &str, given: &Bound<'_, PyAny>) -> PyResult<DVec3> {
-    let vectors = arrays::triples(parameter, given)?;
-    match vectors[..] {
-        [vector] if DVec3::from(vector).is_finite() && DVec3::from(vector).length() > 0.0 => Ok(DVec3::from(vector)),
-        _ => Err(InputError::new_err(format!("{parameter} = {given}: must be a vector (east, north, up) longer than 0"))),
-    }
 }

@@ -4,7 +4,7 @@ use super::air::Atmosphere;
 use super::arguments::{layer_scales, probe_settings, time_text, unit_vectors};
 use super::arrays;
 use super::bodies::{Body, LunarEclipse, Moon, RiseAndSet, SolarEclipse};
-use super::errors::InputError;
+use super::errors::{InputError, SunlightOnlyWarning};
 use super::filter::PolarisingFilter;
 use super::night::Night;
 use super::probe::{Probe, read_half};
@@ -13,7 +13,7 @@ use super::work;
 use crate::ephemeris::{self, Place, SunModel, next_moon_phases};
 use crate::error::check_range;
 use crate::io::config::time_at;
-use crate::io::{FileOptions, Format, Half, SampleMap, check_output, describe, render_to_files};
+use crate::io::{FileOptions, Format, Half, SampleMap, check_output, describe, json, render_to_files};
 use crate::probe;
 use crate::sky::{self, Layer, LightOptions, Model};
 use crate::time::Time;
@@ -253,6 +253,9 @@ impl Sky {
 
     /// Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
     ///
+    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    ///
     /// Parameters
     /// ----------
     /// directions
@@ -272,6 +275,7 @@ impl Sky {
         let directions = unit_vectors(directions)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), wavelengths_nm.len()];
+        self.warn_of_the_night(py, "spectral_radiance")?;
         let radiance = work::run(py, progress, |progress| self.inner.spectral_radiance(&directions, &wavelengths_nm, progress))?;
         PyArray1::from_vec(py, radiance).reshape(shape)
     }
@@ -281,6 +285,9 @@ impl Sky {
     /// Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
     /// as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
     /// arctan2(U, Q) / 2. Circular polarisation is neglected.
+    ///
+    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
     ///
     /// Parameters
     /// ----------
@@ -301,11 +308,15 @@ impl Sky {
         let directions = unit_vectors(directions)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), wavelengths_nm.len(), 3];
+        self.warn_of_the_night(py, "stokes")?;
         let stokes = work::run(py, progress, |progress| self.inner.stokes(&directions, &wavelengths_nm, progress))?;
         PyArray1::from_vec(py, stokes).reshape(shape)
     }
 
-    /// Spectral irradiance by the light of the Sun: of its disc and of the sky. Moonlight and the other lights of the night are not in it. [W m-2 nm-1]
+    /// Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
+    ///
+    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
     ///
     /// Parameters
     /// ----------
@@ -321,6 +332,7 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Irradiance> {
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
+        self.warn_of_the_night(py, "irradiance")?;
         let irradiance = work::run(py, progress, |progress| self.inner.irradiance(&wavelengths_nm, progress))?;
         Ok(Irradiance::new(py, irradiance))
     }
@@ -333,31 +345,36 @@ impl Sky {
     }
 
     /// Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr.
-    #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", progress = None))]
+    ///
+    /// ``gamut`` says what happens to a colour outside the space, as in ``render``: a Sun below 4 degrees is redder than Rec. 709. A lamp with this colour belongs where the disc is
+    /// seen, at ``sun.apparent_altitude_deg``.
+    #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", progress = None))]
     fn sun_irradiance_rgb(
         &self,
         py: Python<'_>,
         scale: &str,
         color_space: &str,
+        gamut: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(f64, f64, f64)> {
-        let (scale, color_space) = (scale.parse()?, color_space.parse()?);
-        let rgb = work::run(py, progress, |progress| self.inner.sun_irradiance_rgb(scale, color_space, progress))?;
+        let (scale, color_space, gamut) = (scale.parse()?, color_space.parse()?, json::word("gamut", gamut)?);
+        let rgb = work::run(py, progress, |progress| self.inner.sun_irradiance_rgb(scale, color_space, gamut, progress))?;
         Ok(rgb.into())
     }
 
     /// Irradiance of the Moon's disc on a plane that faces it, as ``sun_irradiance_rgb``; zeros if the Moon is below the horizon or the night is never
     /// shown.
-    #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", progress = None))]
+    #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", progress = None))]
     fn moon_irradiance_rgb(
         &self,
         py: Python<'_>,
         scale: &str,
         color_space: &str,
+        gamut: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(f64, f64, f64)> {
-        let (scale, color_space) = (scale.parse()?, color_space.parse()?);
-        let rgb = work::run(py, progress, |progress| self.inner.moon_irradiance_rgb(scale, color_space, progress))?;
+        let (scale, color_space, gamut) = (scale.parse()?, color_space.parse()?, json::word("gamut", gamut)?);
+        let rgb = work::run(py, progress, |progress| self.inner.moon_irradiance_rgb(scale, color_space, gamut, progress))?;
         Ok(rgb.into())
     }
 
@@ -373,6 +390,8 @@ impl Sky {
     ///     "centre" (Blender and most viewers), or "corner" for Mitsuba: first and last row on the poles.
     /// extent
     ///     The "full" sphere or the "upper" half.
+    /// turn_deg
+    ///     How far the sky in the picture is turned clockwise as seen from above, -360 to 360: to the right, by ``turn_deg / 360`` of the width. [degrees]
     /// ground
     ///     What is seen below the horizon: "on", "off" (black) or "mirrored".
     /// sun_disc
@@ -393,7 +412,7 @@ impl Sky {
     ///     Factors on the light of layers by their names, 0 (left out) to 1e9, such as ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled.
-    #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
+    #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", turn_deg = 0.0, ground = "on", sun_disc = true,
         scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None,
         layers = None, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
@@ -404,6 +423,7 @@ impl Sky {
         projection: &str,
         rows: &str,
         extent: &str,
+        turn_deg: f64,
         ground: &str,
         sun_disc: bool,
         scale: &str,
@@ -415,7 +435,8 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Probe> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
-        let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
+        let settings =
+            probe_settings(width, [projection, rows, extent, ground], turn_deg, sun_disc, [scale, color_space, gamut])?;
         let rendered =
             work::run(py, progress, |progress| probe::render(&self.inner.light_by(&light, progress)?, &settings, progress))?;
         Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &light, &settings)))
@@ -428,7 +449,7 @@ impl Sky {
     /// ----------
     /// path
     ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-    /// width, projection, rows, extent, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
+    /// width, projection, rows, extent, turn_deg, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
     ///     As for ``render``.
     /// separate_layers
     ///     Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
@@ -436,7 +457,7 @@ impl Sky {
     ///     As for ``Probe.save``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
-    #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", ground = "on", sun_disc = true,
+    #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", turn_deg = 0.0, ground = "on", sun_disc = true,
         scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, layers = None,
         separate_layers = false, half = None, exposure_stops = 0.0, operator = "sky", progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
@@ -448,6 +469,7 @@ impl Sky {
         projection: &str,
         rows: &str,
         extent: &str,
+        turn_deg: f64,
         ground: &str,
         sun_disc: bool,
         scale: &str,
@@ -463,7 +485,8 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
-        let settings = probe_settings(width, [projection, rows, extent, ground], sun_disc, [scale, color_space, gamut])?;
+        let settings =
+            probe_settings(width, [projection, rows, extent, ground], turn_deg, sun_disc, [scale, color_space, gamut])?;
         let options = FileOptions {
             half: half.map_or(Ok(Half::Off), read_half)?,
             exposure_stops,
@@ -488,15 +511,16 @@ impl Sky {
     /// ----------
     /// width
     ///     Even, 64 to 16384. [pixels]
-    /// polarising_filter, tolerance
+    /// turn_deg, polarising_filter, tolerance
     ///     As for ``render``.
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled.
-    #[pyo3(signature = (*, width = 1024, polarising_filter = None, tolerance = None, progress = None))]
+    #[pyo3(signature = (*, width = 1024, turn_deg = 0.0, polarising_filter = None, tolerance = None, progress = None))]
     fn sample_map<'py>(
         &self,
         py: Python<'py>,
         width: i64,
+        turn_deg: f64,
         polarising_filter: Option<PyRef<'py, PolarisingFilter>>,
         tolerance: Option<f64>,
         progress: Option<&Bound<'py, PyAny>>,
@@ -512,7 +536,7 @@ impl Sky {
         let width = check_range("width", width as f64, low, high, "pixels")? as usize;
         let map = work::run(py, progress, |progress| {
             let dome = self.inner.filtered_light(light.polarising_filter.as_ref(), light.tolerance, progress)?;
-            SampleMap::new(&dome, width, progress)
+            SampleMap::new(&dome, width, turn_deg, progress)
         })?;
         PyArray1::from_vec(py, map.pixels).reshape([map.height, map.width, 3])
     }
@@ -544,6 +568,23 @@ impl Sky {
         };
         options.validate()?;
         Ok(options)
+    }
+
+    /// Says that spectra are of sunlight alone, where that matters.
+    fn warn_of_the_night(&self, py: Python<'_>, method: &str) -> PyResult<()> {
+        if !self.inner.has_more_than_sunlight() {
+            return Ok(());
+        }
+        let altitude = self.inner.sun().altitude_deg;
+        let elsewhere = match self.inner.place() {
+            Some(_) => "they are in render() and illuminance(), and Night(when=\"never\") leaves them out of all",
+            None => "a sky without place and time has none of them",
+        };
+        let message = format!(
+            "{method}: of sunlight alone, with the Sun at {altitude:.2} degrees; Moon, stars, airglow and the other lights of the night are not in it ({elsewhere})"
+        );
+        let message = std::ffi::CString::new(message).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<SunlightOnlyWarning>(), &message, 1)
     }
 
     fn place_and_time(&self) -> PyResult<(&Place, &Time)> {

@@ -32,7 +32,8 @@ const WHOLE_CIRCLE: usize = 48;
 /// Light in all directions around one observer at one moment.
 pub struct SkyDome {
     above: Half,
-    below: Half,
+    /// Left out where only the light from above is asked for.
+    below: Option<Half>,
     horizon: f64,
     /// Unit vector to the Sun's centre, geometric: altitude and azimuth [radians].
     sun_altitude: f64,
@@ -54,6 +55,8 @@ pub(super) struct Gathering<'a> {
     pub filter: Option<PolarisingFilter>,
     /// Relative error that interpolation may have, instead of the quality's numbers of circles and azimuths.
     pub tolerance: Option<f64>,
+    /// Whether what is below the horizon is gathered, too; a tolerance gathers it always.
+    pub ground: bool,
     /// Weights that turn radiance per unit solar irradiance into XYZ.
     pub weights: Vec<[f64; 3]>,
     pub observer: Observer,
@@ -68,13 +71,17 @@ impl SkyDome {
         let functions = what.field.functions();
         let terms = Terms { functions: Arc::clone(functions), lanes: Lanes::new(functions, what.filter) };
         let sides = [Side { what, terms: &terms, above: true }, Side { what, terms: &terms, above: false }];
-        let [above, below] = match what.tolerance {
+        let (above, below) = match what.tolerance {
             None => {
-                let circles = [what.numbers.dome_circles, what.numbers.dome_circles / 2];
+                let circles = [what.numbers.dome_circles, if what.ground { what.numbers.dome_circles / 2 } else { 0 }];
                 let parts = progress.parts("gather", circles[0] + circles[1]);
-                [sides[0].even(circles[0], &parts)?, sides[1].even(circles[1], &parts)?]
+                let below = || what.ground.then(|| sides[1].even(circles[1], &parts)).transpose();
+                (sides[0].even(circles[0], &parts)?, below()?)
             }
-            Some(tolerance) => refine::refine(&sides, tolerance, progress)?,
+            Some(tolerance) => {
+                let [above, below] = refine::refine(&sides, tolerance, progress)?;
+                (above, Some(below))
+            }
         };
         let (sun_altitude, sun_azimuth) = what.sun;
         Ok(Self { above, below, horizon: what.horizon, sun_altitude, sun_azimuth, discs })
@@ -87,7 +94,8 @@ impl SkyDome {
             let circles = half.circles.nodes().iter().map(|position| self.horizon + way * position * position);
             circles.flat_map(|altitude| (0..half.azimuths).map(move |a| [altitude, self.sun_azimuth - step * a as f64])).collect()
         };
-        [of_half(&self.above, FRAC_PI_2 - self.horizon), of_half(&self.below, -FRAC_PI_2 - self.horizon)].concat()
+        let below = self.below.as_ref().map(|below| of_half(below, -FRAC_PI_2 - self.horizon));
+        [of_half(&self.above, FRAC_PI_2 - self.horizon), below.unwrap_or_default()].concat()
     }
 }
 
@@ -168,10 +176,10 @@ impl Terms {
 
 impl SkyLight for SkyDome {
     fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
-        let (half, share) = if altitude >= self.horizon {
-            (&self.above, (altitude - self.horizon) / (FRAC_PI_2 - self.horizon))
-        } else {
-            (&self.below, (self.horizon - altitude) / (FRAC_PI_2 + self.horizon))
+        let (half, share) = match &self.below {
+            _ if altitude >= self.horizon => (&self.above, (altitude - self.horizon) / (FRAC_PI_2 - self.horizon)),
+            Some(below) => (below, (self.horizon - altitude) / (FRAC_PI_2 + self.horizon)),
+            None => return out.fill([0.0; 3]),
         };
         let circle = Circle::new(half, share.clamp(0.0, 1.0).sqrt(), azimuths.len() > WHOLE_CIRCLE);
         for (azimuths, out) in azimuths.chunks(CHUNK).zip(out.chunks_mut(CHUNK)) {

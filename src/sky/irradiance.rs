@@ -70,14 +70,14 @@ pub(super) fn diffuse_horizontal(
     Ok((0..circles[0].len()).map(|w| circles.iter().map(|circle| circle[w]).sum()).collect())
 }
 
-/// XYZ irradiance of the horizontal plane by `light` without its discs [W m-2].
-pub(super) fn horizontal_irradiance(light: &dyn SkyLight) -> [f64; 3] {
+/// XYZ irradiance of the horizontal plane by `light` without its discs [W m-2]; `gain`: factor on what is smooth in it by the altitude [radians].
+pub(super) fn horizontal_irradiance(light: &dyn SkyLight, gain: impl Fn(f64) -> f64 + Sync) -> [f64; 3] {
     let azimuths: Vec<f64> = (0..2 * AZIMUTHS).map(|a| (a as f64 + 0.5) * PI / AZIMUTHS as f64).collect();
     let circle = |(t, weight): (f64, f64)| {
         let mu = t * t;
         let mut row = vec![[0.0_f32; 3]; azimuths.len()];
         light.radiance_circle(mu.asin(), &azimuths, &mut row);
-        let share = 2.0 * t * weight * mu * TAU / azimuths.len() as f64;
+        let share = gain(mu.asin()) * 2.0 * t * weight * mu * TAU / azimuths.len() as f64;
         row.iter().fold([0.0; 3], |sum, xyz| std::array::from_fn(|k| sum[k] + share * f64::from(xyz[k])))
     };
     let add = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);

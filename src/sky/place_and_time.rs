@@ -9,7 +9,7 @@ use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SolarEclipse,
 use crate::error::{Result, check_range};
 use crate::light::{LightField, Observer};
 use crate::progress::Progress;
-use crate::spectrum::ColorSpace;
+use crate::spectrum::{ColorSpace, Gamut};
 use crate::time::Time;
 use crate::units::Scale;
 use std::f64::consts::FRAC_PI_2;
@@ -143,13 +143,20 @@ impl Sky {
     }
 
     /// Irradiance by the Sun's disc (at a total eclipse by its corona) through the air on a surface that faces it, as RGB in `color_space`, in the units of a probe's pixels times
-    /// steradians: a lamp of this strength lights a scene as the disc in the probe does.
+    /// steradians: a lamp of this strength lights a scene as the disc in the probe does. A low Sun is redder than Rec. 709 can show; `gamut` says what happens to such a colour, as it
+    /// does in a probe. The lamp belongs where the disc is seen, at the apparent altitude.
     ///
     /// # Errors
     /// As [`Self::illuminance`].
-    pub fn sun_irradiance_rgb(&self, scale: Scale, color_space: ColorSpace, progress: &Progress) -> Result<[f64; 3]> {
+    pub fn sun_irradiance_rgb(
+        &self,
+        scale: Scale,
+        color_space: ColorSpace,
+        gamut: Gamut,
+        progress: &Progress,
+    ) -> Result<[f64; 3]> {
         let xyz = sum_of_products(&self.direct_transmittance(self.field(progress)?), &self.xyz_weights()?);
-        Ok(color_space.from_xyz(xyz.map(|v| v * scale.factor())))
+        Ok(color_space.from_xyz_within(xyz.map(|v| v * scale.factor()), gamut))
     }
 
     /// Irradiance by the Moon's disc through the air on a surface that faces it, as [`Self::sun_irradiance_rgb`]; nothing if the night is never shown, the Moon is below the horizon
@@ -157,11 +164,17 @@ impl Sky {
     ///
     /// # Errors
     /// As [`Self::illuminance`].
-    pub fn moon_irradiance_rgb(&self, scale: Scale, color_space: ColorSpace, progress: &Progress) -> Result<[f64; 3]> {
+    pub fn moon_irradiance_rgb(
+        &self,
+        scale: Scale,
+        color_space: ColorSpace,
+        gamut: Gamut,
+        progress: &Progress,
+    ) -> Result<[f64; 3]> {
         let field = self.field(progress)?;
         let seen = self.bodies.as_ref().filter(|_| self.night.when != When::Never);
         let disc = seen.map(|bodies| self.moon_disc(field, bodies)).transpose()?.flatten();
-        Ok(disc.map_or([0.0; 3], |disc| color_space.from_xyz(disc.irradiance.map(|v| v * scale.factor()))))
+        Ok(disc.map_or([0.0; 3], |disc| color_space.from_xyz_within(disc.irradiance.map(|v| v * scale.factor()), gamut)))
     }
 
     /// The Moon outside the air.

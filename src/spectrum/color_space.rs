@@ -130,6 +130,14 @@ impl ColorSpace {
     pub fn from_xyz(self, xyz: [f64; 3]) -> [f64; 3] {
         transform(&self.matrix_from_xyz(), xyz)
     }
+
+    /// The colour `xyz` in this space, and what `gamut` makes of it where it is outside. XYZ holds every colour and leaves it as it is.
+    pub fn from_xyz_within(self, xyz: [f64; 3], gamut: Gamut) -> [f64; 3] {
+        match self {
+            Self::Xyz => xyz,
+            _ => gamut.apply(self.from_xyz(xyz), self.matrix_to_xyz()[1]),
+        }
+    }
 }
 
 impl FromStr for ColorSpace {
@@ -282,6 +290,19 @@ mod tests {
         assert_eq!(Gamut::Keep.apply(color, weights), color);
         assert_eq!(Gamut::Desaturate.apply([0.1, 0.2, 0.3], weights), [0.1, 0.2, 0.3]);
         assert_eq!(Gamut::Desaturate.apply([-3.0, 0.0, 0.1], weights), [0.0; 3]);
+    }
+
+    #[test]
+    fn the_colours_of_a_low_sun_come_into_every_space_with_their_luminance() {
+        // Nearly monochromatic light of 620 nm: outside Rec. 709.
+        let xyz = [0.8544, 0.3810, 0.0002];
+        assert!(ColorSpace::LinRec709.from_xyz(xyz).iter().any(|&c| c < 0.0));
+        for space in ALL {
+            let rgb = space.from_xyz_within(xyz, Gamut::Desaturate);
+            assert!(rgb.iter().all(|&c| c >= 0.0), "{space:?}: {rgb:?}");
+            assert!((transform(&space.matrix_to_xyz(), rgb)[1] - xyz[1]).abs() < 1e-12, "{space:?}: {rgb:?}");
+            assert_eq!(space.from_xyz_within(xyz, Gamut::Keep), space.from_xyz(xyz));
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::super::{FileOptions, Metadata, save, tests::gradient, write_picture};
 use super::*;
+use crate::post::tone::{Frame, ToneMapper, ToneMapping};
 use crate::probe::{ProbeSettings, Projection};
 use crate::progress::Progress;
 use ::exr::prelude::{
@@ -266,4 +267,24 @@ fn damaged_files_are_told_from_sound_ones_and_never_panic() {
             let _ = read_picture(&path, &PictureHints::default());
         }
     }
+}
+
+#[test]
+fn a_turn_goes_from_file_to_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, next) in [("a.exr", "b.hdr"), ("c.hdr", "d.exr")] {
+        let [path, next] = [name, next].map(|name| folder.path().join(name));
+        let probe = gradient(ProbeSettings { width: 64, turn_deg: -12.5, ..Default::default() });
+        save(&path, &probe, &FileOptions::default(), &Metadata::default()).unwrap();
+        let picture = read_picture(&path, &PictureHints::default()).unwrap();
+        assert_eq!(picture.turn_deg, -12.5, "{name}");
+        write_picture(&next, &picture, &Progress::silent()).unwrap();
+        assert_eq!(read_picture(&next, &PictureHints::default()).unwrap().turn_deg, -12.5);
+        let toned = ToneMapper::new(Frame::from(&picture), &ToneMapping::default(), &Progress::silent()).unwrap();
+        assert_eq!(toned.to_picture(&Progress::silent()).unwrap().turn_deg, -12.5);
+    }
+    let plain = folder.path().join("e.exr");
+    save(&plain, &gradient(ProbeSettings { width: 64, ..Default::default() }), &FileOptions::default(), &Metadata::default())
+        .unwrap();
+    assert_eq!(read_picture(&plain, &PictureHints::default()).unwrap().turn_deg, 0.0);
 }

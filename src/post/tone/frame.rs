@@ -24,12 +24,14 @@ pub struct Frame<'a> {
     pub white_luminance: f64,
     /// Where the pixels look.
     pub view: View,
+    /// How far a sky in it is turned, as [`Picture::turn_deg`] [degrees].
+    pub turn_deg: f64,
 }
 
 impl<'a> From<&'a Picture> for Frame<'a> {
     fn from(picture: &'a Picture) -> Self {
-        let &Picture { width, height, ref pixels, color_space, white_luminance, view, .. } = picture;
-        Self { width, height, pixels, color_space, white_luminance, view }
+        let &Picture { width, height, ref pixels, color_space, white_luminance, view, turn_deg, .. } = picture;
+        Self { width, height, pixels, color_space, white_luminance, view, turn_deg }
     }
 }
 
@@ -43,6 +45,7 @@ impl<'a> From<&'a Probe> for Frame<'a> {
             color_space: settings.color_space,
             white_luminance: Scale::white_luminance(settings.scale),
             view: View::of(settings),
+            turn_deg: settings.turn_deg,
         }
     }
 }

@@ -122,6 +122,7 @@ pub struct ToneMapper<'a> {
     height: usize,
     display: Display,
     view: View,
+    turn_deg: f64,
     metering: Metering,
     adaptation: f64,
     exposure: f64,
@@ -171,6 +172,7 @@ impl<'a> ToneMapper<'a> {
             height: frame.height,
             display: settings.display,
             view: frame.view,
+            turn_deg: frame.turn_deg,
             metering,
             adaptation,
             exposure,
@@ -237,7 +239,9 @@ impl<'a> ToneMapper<'a> {
                 "srgb, rec709 or linear for values in proportion to light (EXR, HDR)",
             ));
         }
-        Picture::new(self.width, self.height, self.to_linear(progress)?, ColorSpace::LinRec709, DISPLAY_WHITE, self.view)
+        let light = self.to_linear(progress)?;
+        let picture = Picture::new(self.width, self.height, light, ColorSpace::LinRec709, DISPLAY_WHITE, self.view)?;
+        Ok(Picture { turn_deg: self.turn_deg, ..picture })
     }
 
     /// 8-bit codes, dithered, row-major (height, width, 3).

@@ -25,6 +25,9 @@ use diffuse::{DiffuseAir, DiffuseSky};
 /// Altitude of the Sun below which `When::Auto` shows the night, as it does while the Sun is totally eclipsed [degrees].
 const SUNSET_DEG: f64 = 0.0;
 
+/// Altitude of the Sun at the end of astronomical twilight [degrees].
+const NIGHT_DEG: f64 = -18.0;
+
 impl Sky {
     /// Whether `options` ask for moonlight, stars and diffuse light in this sky.
     pub(super) fn is_night(&self, options: &NightOptions) -> bool {
@@ -32,6 +35,15 @@ impl Sky {
             When::Auto => self.sun().altitude_deg < SUNSET_DEG || self.solar_eclipse().is_some_and(|eclipse| eclipse.is_total()),
             When::Always => true,
             When::Never => false,
+        }
+    }
+
+    /// Whether there is light in this sky that its spectra ([`Self::spectral_radiance`], [`Self::stokes`], [`Self::irradiance`]) lack, because they are of sunlight alone: if moonlight, stars
+    /// and diffuse light are in its pictures by [`Self::night`], and, in a sky without place and time, with the Sun so low that they would outshine it, below -18 degrees.
+    pub fn has_more_than_sunlight(&self) -> bool {
+        match self.bodies_of_place() {
+            Some(_) => self.is_night(self.night()),
+            None => self.night().when != When::Never && self.sun().altitude_deg < NIGHT_DEG,
         }
     }
 
@@ -154,5 +166,23 @@ mod tests {
         }
         let put = Sky::with_sun(-20.0, 0.0, 0.0, air).unwrap();
         assert_eq!(put.layers_by(Model::Scattering), [Layer::Sky, Layer::Sun]);
+    }
+
+    #[test]
+    fn a_sky_says_whether_its_spectra_lack_light_that_is_in_its_pictures() {
+        let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+        let lund = Place::new(55.7, 13.2, 0.0).unwrap();
+        let at = |text: &str, place: Place, when: When| {
+            let time = Time::parse(text, ZoneChoice::InText).unwrap();
+            let sky = Sky::new(place, time, SunModel::Iau, air.clone()).unwrap();
+            sky.with_night(NightOptions { when, ..Default::default() }).unwrap().has_more_than_sunlight()
+        };
+        let (noon, midnight) = ("2005-06-21T13:00:00+02:00", "2005-01-10T00:30:00+01:00");
+        assert!(!at(noon, lund, When::Auto) && at(noon, lund, When::Always));
+        assert!(at(midnight, lund, When::Auto) && at(midnight, lund, When::Always) && !at(midnight, lund, When::Never));
+        // The Sun totally eclipsed over Reims.
+        assert!(at("1999-08-11T10:26:30Z", Place::new(49.254, 4.03, 100.0).unwrap(), When::Auto));
+        let put = |altitude: f64| Sky::with_sun(altitude, 0.0, 0.0, air.clone()).unwrap().has_more_than_sunlight();
+        assert!(!put(30.0) && !put(-6.0) && put(-20.0) && put(-90.0));
     }
 }

@@ -6,7 +6,7 @@ use super::super::dome::{Gathering, SkyDome};
 use super::super::eclipse::{self, EclipsedDome, Gain};
 use super::super::filter::PolarisingFilter;
 use super::super::irradiance::diffuse_horizontal;
-use super::super::layers::{Layer, Layers, Part};
+use super::super::layers::{Layer, LayerScales, Layers, Part};
 use super::super::model::{LightOptions, check_tolerance};
 use super::super::night::moonlight_weights;
 use super::Sky;
@@ -17,6 +17,20 @@ use crate::progress::Progress;
 
 /// Altitude of the Moon below which its light in the air is left out [degrees].
 const DARK_DEG: f64 = -18.0;
+
+/// What of the light of a dome is wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    pub filter: Option<&'a PolarisingFilter>,
+    pub tolerance: Option<f64>,
+    /// Whether what is below the horizon is wanted, too.
+    pub ground: bool,
+}
+
+impl Wanted<'_> {
+    /// What shines on a plane from above.
+    pub const FROM_ABOVE: Self = Self { filter: None, tolerance: None, ground: false };
+}
 
 impl Sky {
     /// All light around the observer, ready to be made into a probe.
@@ -47,24 +61,25 @@ impl Sky {
         tolerance.map(check_tolerance).transpose()?;
         let field = self.field(progress)?;
         let discs = self.sun_discs(field, self.horizon())?;
-        self.dome(field, &self.sun, self.sky_weights()?, (filter, tolerance), discs, progress)
+        self.dome(field, &self.sun, self.sky_weights()?, Wanted { filter, tolerance, ground: true }, discs, progress)
     }
 
     /// The dome lit by `body` whose irradiance outside the air makes `weights`.
-    fn dome(
+    pub(super) fn dome(
         &self,
         field: &LightField,
         body: &Body,
         weights: Vec<[f64; 3]>,
-        (filter, tolerance): (Option<&PolarisingFilter>, Option<f64>),
+        wanted: Wanted,
         discs: Vec<Disc>,
         progress: &Progress,
     ) -> Result<SkyDome> {
         let what = Gathering {
             field,
             numbers: &self.atmosphere.quality().numbers(),
-            filter: filter.copied(),
-            tolerance,
+            filter: wanted.filter.copied(),
+            tolerance: wanted.tolerance,
+            ground: wanted.ground,
             weights,
             observer: self.observer_under(body),
             horizon: self.horizon(),
@@ -76,7 +91,8 @@ impl Sky {
     /// All light around the observer, in layers, by the solved light transport.
     pub(in crate::sky) fn scattered_light(&self, options: &LightOptions, progress: &Progress) -> Result<Layers> {
         let field = self.field(progress)?;
-        let mut layers = self.night_light(field, options, progress)?;
+        let wanted = Wanted { filter: options.polarising_filter.as_ref(), tolerance: options.tolerance, ground: true };
+        let mut layers = self.night_light(field, &options.layers, wanted, progress)?;
         let scale = |layer: Layer| options.layers.of(layer);
         let dome = self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?;
         layers.add(Layer::Sun, scale(Layer::Sun), Part { discs: dome.discs(), ..Default::default() });
@@ -89,18 +105,23 @@ impl Sky {
     }
 
     /// The lights of the night and moonlight in the air, in layers.
-    pub(super) fn night_light(&self, field: &LightField, options: &LightOptions, progress: &Progress) -> Result<Layers> {
+    pub(super) fn night_light(
+        &self,
+        field: &LightField,
+        scales: &LayerScales,
+        wanted: Wanted,
+        progress: &Progress,
+    ) -> Result<Layers> {
         let mut layers = Layers::new(self.horizon());
-        self.add_night(field, &self.night, &options.layers, &mut layers, progress)?;
+        self.add_night(field, &self.night, scales, &mut layers, progress)?;
         if let Some(bodies) = &self.bodies
             && self.is_night(&self.night)
             && bodies.moon.body.altitude_deg > DARK_DEG
-            && options.layers.of(Layer::Sky) > 0.0
+            && scales.of(Layer::Sky) > 0.0
         {
             let weights = moonlight_weights(self.moon(bodies)?, self.atmosphere.weights());
-            let through = (options.polarising_filter.as_ref(), options.tolerance);
-            let dome = self.dome(field, &bodies.moon.body, weights, through, Vec::new(), progress)?;
-            layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
+            let dome = self.dome(field, &bodies.moon.body, weights, wanted, Vec::new(), progress)?;
+            layers.add(Layer::Sky, scales.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
         }
         Ok(layers)
     }

@@ -3,9 +3,9 @@
 use super::super::disc::Disc;
 use super::super::eclipse;
 use super::super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, horizontal_irradiance};
-use super::super::layers::Layer;
-use super::super::model::LightOptions;
+use super::super::layers::{Layer, LayerScales};
 use super::Sky;
+use super::pictured::Wanted;
 use crate::ephemeris::horizontal_from_direction;
 use crate::error::{Error, Result};
 use crate::light::{Gathered, LightField, transverse};
@@ -19,6 +19,8 @@ use rayon::prelude::*;
 impl Sky {
     /// Spectral radiance without the Sun's disc towards unit vectors `directions` (east, north, up) at `wavelengths_nm`:
     /// shape (directions, wavelengths), row-major [W m-2 sr-1 nm-1]. Between the solved wavelengths the radiance relative to the Sun's spectrum is interpolated.
+    ///
+    /// It is sunlight alone: at night next to nothing. [`Self::has_more_than_sunlight`] tells whether this sky has other light.
     ///
     /// # Errors
     /// [`Error::Input`] for directions that are not unit vectors and wavelengths that were not solved; [`Error::Cancelled`].
@@ -37,6 +39,8 @@ impl Sky {
     /// Stokes parameters I, Q, U of the sky in `directions` at `wavelengths_nm` [W m-2 sr-1 nm-1], the Sun's disc excluded, row-major, shape
     /// (directions, wavelengths, 3). Directions are unit vectors (east, north, up). Q > 0 is polarised vertically, in the plane of view direction and zenith; U > 0 along the direction
     /// 45 degrees clockwise from the vertical as the observer sees it.
+    ///
+    /// It is sunlight alone: at night next to nothing. [`Self::has_more_than_sunlight`] tells whether this sky has other light.
     ///
     /// # Errors
     /// As [`Self::spectral_radiance`]; [`Error::Input`] if the atmosphere was made without polarisation.
@@ -98,6 +102,8 @@ impl Sky {
 
     /// Spectral irradiance by the Sun (at a total eclipse by its corona) and by the sky at `wavelengths_nm`.
     ///
+    /// It is sunlight alone: at night next to nothing. [`Self::has_more_than_sunlight`] tells whether this sky has other light.
+    ///
     /// # Errors
     /// [`Error::Input`] for wavelengths that were not solved; [`Error::Cancelled`].
     pub fn irradiance(&self, wavelengths_nm: &[f64], progress: &Progress) -> Result<Irradiance> {
@@ -127,8 +133,11 @@ impl Sky {
         };
         let direct_normal_lx = luminous(&self.direct_transmittance(field), &weights);
         let direct_horizontal_lx = direct_normal_lx * self.disc_cosine();
-        let by_sunlight = luminous(&self.diffuse_horizontal(field, progress)?, &sky_weights);
-        let night = self.night_light(field, &LightOptions::default(), progress)?;
+        // Colours of some hundreds of directions, with the aureole applied exactly between them, cost a quarter of spectra in all that the integral needs.
+        let dome = self.dome(field, &self.sun, sky_weights, Wanted::FROM_ABOVE, Vec::new(), progress)?;
+        let uncovered = self.uncovered_at(&[eclipse::MIDDLE_NM])[0];
+        let by_sunlight = horizontal_irradiance(&dome, |altitude| eclipse::gain_of_sky(uncovered, altitude))[1];
+        let night = self.night_light(field, &LayerScales::default(), Wanted::FROM_ABOVE, progress)?;
         let moons = night.only(Layer::Moon).discs();
         // A sum of nothing would be -0.
         let by_the_moon = |cosine: fn(&Disc) -> f64| {
@@ -136,7 +145,7 @@ impl Sky {
         };
         let moon_normal_lx = by_the_moon(|_| 1.0);
         let moon_horizontal_lx = by_the_moon(|disc| disc.direction.z.max(0.0));
-        let diffuse_horizontal_lx = by_sunlight + LUMINOUS_EFFICACY * horizontal_irradiance(&night)[1];
+        let diffuse_horizontal_lx = LUMINOUS_EFFICACY * (by_sunlight + horizontal_irradiance(&night, |_| 1.0)[1]);
         Ok(Illuminance {
             direct_normal_lx,
             direct_horizontal_lx,

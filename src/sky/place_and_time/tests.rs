@@ -171,6 +171,65 @@ fn cancelling_leaves_the_air_unsolved_and_usable() {
     assert!(atmosphere.solve(&Progress::silent()).is_ok());
 }
 
+/// Lamps get these: what a renderer cannot have is not in them, and their luminance is that of the light.
+#[test]
+fn colours_of_sun_and_moon_are_in_their_space_however_low_they_stand() {
+    let clear = AirParameters::default();
+    let haze = AirParameters { aod550: Some(2.0), ..AirParameters::default() };
+    let (scale, silent) = (Scale::Luminance, Progress::silent());
+    let spaces = [ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz];
+    let check = |of: &dyn Fn(ColorSpace, Gamut) -> [f64; 3], what: &str| {
+        let [_, luminance, _] = of(ColorSpace::Xyz, Gamut::Keep);
+        let mut outside = false;
+        for space in spaces {
+            let rgb = of(space, Gamut::Desaturate);
+            assert!(rgb.iter().all(|&value| value >= 0.0), "{what} {space:?}: {rgb:?}");
+            let found = crate::spectrum::color_space::transform(&space.matrix_to_xyz(), rgb)[1];
+            assert!((found - luminance).abs() <= 1e-9 * luminance, "{what} {space:?}: {found} is not {luminance}");
+            outside |= of(space, Gamut::Keep).iter().any(|&value| value < 0.0);
+        }
+        (luminance > 0.0, outside)
+    };
+    let mut outside = 0;
+    for air in [clear, haze] {
+        let atmosphere = Arc::new(Atmosphere::new(&air, Quality::Draft, true).unwrap());
+        for altitude in [30.0, 4.0, 2.0, 1.0, 0.0, -0.4, -0.75, -3.0] {
+            let sky = sky(&atmosphere, altitude, 0.0);
+            let (_, negative) =
+                check(&|space, gamut| sky.sun_irradiance_rgb(scale, space, gamut, &silent).unwrap(), &altitude.to_string());
+            outside += usize::from(negative);
+        }
+        // The Moon rises reddened, and in the shadow of the Earth it is red up high.
+        for (latitude, longitude, text) in [(55.7, 13.2, "2005-01-25T15:27Z"), (20.0, -156.0, "2018-01-31T13:29:50Z")] {
+            let place = Place::new(latitude, longitude, 0.0).unwrap();
+            let time = Time::parse(text, crate::time::ZoneChoice::Named("UTC")).unwrap();
+            let sky = Sky::new(place, time, SunModel::Iau, Arc::clone(&atmosphere)).unwrap();
+            let (seen, _) = check(&|space, gamut| sky.moon_irradiance_rgb(scale, space, gamut, &silent).unwrap(), text);
+            assert!(seen, "{text}");
+        }
+    }
+    assert!(outside >= 5, "the test has colours outside Rec. 709");
+}
+
+/// By the colours of a dome, and by spectra in each direction of the integral.
+#[test]
+fn the_illuminance_of_the_sky_is_the_integral_of_its_spectra() {
+    for parameters in [AirParameters::default(), AirParameters { aod550: Some(0.6), ..AirParameters::default() }] {
+        let atmosphere = Arc::new(Atmosphere::new(&parameters, Quality::Standard, true).unwrap());
+        for (altitude, tolerance) in [(88.0, 1e-4), (40.0, 1e-4), (8.0, 1e-4), (0.0, 1e-4), (-4.0, 2e-4), (-10.0, 1e-3)] {
+            let sky = sky(&atmosphere, altitude, 0.0);
+            let field = sky.field(&Progress::silent()).unwrap();
+            let spectrum = sky.diffuse_horizontal(field, &Progress::silent()).unwrap();
+            let weights = sky.sky_weights().unwrap();
+            let exact =
+                crate::units::LUMINOUS_EFFICACY * spectrum.iter().zip(weights).map(|(value, w)| value * w[1]).sum::<f64>();
+            let found = sky.illuminance(&Progress::silent()).unwrap().diffuse_horizontal_lx;
+            println!("Sun {altitude}: {found} lx, {:+.2e}", found / exact - 1.0);
+            assert!((found / exact - 1.0).abs() < tolerance, "Sun {altitude}: {found} is not {exact}");
+        }
+    }
+}
+
 /// Without air there is only the Sun: its illuminance is that of the solar spectrum.
 #[test]
 fn outside_the_air_the_sun_has_its_whole_illuminance() {
