@@ -82,6 +82,7 @@ __all__ = [
     "point_spread_function",
     "run_command_line",
     "search_places",
+    "suggest_places",
     "tone_map",
     "zone_of_place",
 ]
@@ -1066,7 +1067,7 @@ class Probe:
 
 @final
 class Place:
-    """A town, a village or an observatory of the gazetteer."""
+    """A place of the gazetteer: a town, a village, an observatory, a country, a region, an island or a landmark."""
 
     @property
     def name(self) -> str:
@@ -1085,8 +1086,13 @@ class Place:
         """Code of the country, two letters (ISO 3166-1)."""
 
     @property
-    def kind(self) -> Literal["town", "observatory"]:
-        """"town" (or a village, or a part of one) or "observatory"."""
+    def kind(self) -> Literal["town", "observatory", "country", "region", "island", "landmark"]:
+        """"town" (or a village, or a part of one), "observatory", "country", "region", "island" or "landmark"."""
+
+    @property
+    def seat(self) -> str:
+        """The town whose coordinates, elevation and zone stand for a country (its capital), a region (its seat) or an island (its chief town); empty for
+        others."""
 
     @property
     def latitude(self) -> float:
@@ -1110,11 +1116,11 @@ class Place:
 
     @property
     def label(self) -> str:
-        """Name, region and country, such as "Lund, Skåne, Sweden"."""
+        """Name, region and country, such as "Lund, Skåne, Sweden", and the town that stands for it: "Iceland (Reykjavík)"."""
 
 @final
 class NearestPlace:
-    """The place nearest to coordinates, and where they are seen from it."""
+    """The town or observatory nearest to coordinates, and where they are seen from it."""
 
     @property
     def place(self) -> Place:
@@ -1242,10 +1248,25 @@ def search_places(text: str, limit: int = 10) -> list[Place]:
         What a person has typed so far.
     limit
         How many places at most.
+
+    More than 200 bytes, 16 words or 6 commas find nothing.
+    """
+
+def suggest_places(text: str, limit: int = 5) -> list[Place]:
+    """Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stokholm" suggests Stockholm.
+
+    Up to two letters may be missing, wrong, too many or swapped, one in words of four letters or fewer. The nearest come first, then the largest; some 30 ms.
+
+    Parameters
+    ----------
+    text
+        As for ``search``; more than 40 letters suggest nothing.
+    limit
+        How many places at most.
     """
 
 def nearest_place(latitude: float, longitude: float) -> NearestPlace:
-    """The place nearest to coordinates.
+    """The town or observatory nearest to coordinates.
 
     Parameters
     ----------
@@ -1258,7 +1279,7 @@ def nearest_place(latitude: float, longitude: float) -> NearestPlace:
 def locate_place(text: str) -> Location:
     """The place that `text` means: coordinates in any spelling, or the best match of a name, which the label of the result tells.
 
-    Raises :class:`InputError` if it is neither.
+    Raises :class:`InputError` if it is neither; the message has the nearest spellings.
 
     Parameters
     ----------

@@ -33,6 +33,7 @@ from ._core import (
 from ._core import locate_place as locate
 from ._core import nearest_place as nearest
 from ._core import search_places as search
+from ._core import suggest_places as suggest
 from ._core import zone_of_place as time_zone
 
 __all__ = [
@@ -49,5 +50,6 @@ __all__ = [
     "parse_coordinates",
     "parse_time",
     "search",
+    "suggest",
     "time_zone",
 ]

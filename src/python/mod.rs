@@ -50,6 +50,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<places::CivilTime>()?;
     module.add_class::<places::TimeFields>()?;
     module.add_function(wrap_pyfunction!(places::search_places, module)?)?;
+    module.add_function(wrap_pyfunction!(places::suggest_places, module)?)?;
     module.add_function(wrap_pyfunction!(places::nearest_place, module)?)?;
     module.add_function(wrap_pyfunction!(places::locate_place, module)?)?;
     module.add_function(wrap_pyfunction!(places::parse_coordinates, module)?)?;

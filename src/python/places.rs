@@ -1,11 +1,11 @@
 //! `skyprobe.places`: names, coordinates, elevation, zones.
 
 use super::results::datetime;
-use crate::places::{self, CoordinateStyle, Coordinates, NamedPlace, PlaceKind};
+use crate::places::{self, CoordinateStyle, Coordinates, NamedPlace};
 use crate::time::{self, Occurrence, ZoneChoice};
 use pyo3::prelude::*;
 
-/// A town, a village or an observatory of the gazetteer.
+/// A place of the gazetteer: a town, a village, an observatory, a country, a region, an island or a landmark.
 #[pyclass(frozen, module = "skyprobe.places")]
 pub struct Place {
     inner: NamedPlace,
@@ -37,13 +37,17 @@ impl Place {
         self.inner.country_code
     }
 
-    /// "town" (or a village, or a part of one) or "observatory".
+    /// "town" (or a village, or a part of one), "observatory", "country", "region", "island" or "landmark".
     #[getter]
     fn kind(&self) -> &'static str {
-        match self.inner.kind {
-            PlaceKind::Town => "town",
-            PlaceKind::Observatory => "observatory",
-        }
+        self.inner.kind.name()
+    }
+
+    /// The town whose coordinates, elevation and zone stand for a country (its capital), a region (its seat) or an island (its chief town); empty for
+    /// others.
+    #[getter]
+    fn seat(&self) -> &'static str {
+        self.inner.seat
     }
 
     /// Geodetic latitude, positive north, to 0.001. [degrees]
@@ -76,7 +80,7 @@ impl Place {
         self.inner.time_zone
     }
 
-    /// Name, region and country, such as "Lund, Skåne, Sweden".
+    /// Name, region and country, such as "Lund, Skåne, Sweden", and the town that stands for it: "Iceland (Reykjavík)".
     #[getter]
     fn label(&self) -> String {
         self.inner.label()
@@ -88,7 +92,7 @@ impl Place {
     }
 }
 
-/// The place nearest to coordinates, and where they are seen from it.
+/// The town or observatory nearest to coordinates, and where they are seen from it.
 #[pyclass(frozen, module = "skyprobe.places")]
 pub struct NearestPlace {
     inner: places::Nearest,
@@ -328,6 +332,8 @@ pub fn parse_time(text: &str) -> PyResult<TimeFields> {
 ///     What a person has typed so far.
 /// limit
 ///     How many places at most.
+///
+/// More than 200 bytes, 16 words or 6 commas find nothing.
 #[pyfunction]
 #[pyo3(signature = (text, limit = 10))]
 pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
@@ -335,7 +341,23 @@ pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
     py.detach(|| places::search(text, limit)).into_iter().map(|inner| Place { inner }).collect()
 }
 
-/// The place nearest to coordinates.
+/// Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stokholm" suggests Stockholm.
+///
+/// Up to two letters may be missing, wrong, too many or swapped, one in words of four letters or fewer. The nearest come first, then the largest; some 30 ms.
+///
+/// Parameters
+/// ----------
+/// text
+///     As for ``search``; more than 40 letters suggest nothing.
+/// limit
+///     How many places at most.
+#[pyfunction]
+#[pyo3(signature = (text, limit = 5))]
+pub fn suggest_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
+    py.detach(|| places::suggest(text, limit)).into_iter().map(|inner| Place { inner }).collect()
+}
+
+/// The town or observatory nearest to coordinates.
 ///
 /// Parameters
 /// ----------
@@ -350,7 +372,7 @@ pub fn nearest_place(latitude: f64, longitude: f64) -> PyResult<NearestPlace> {
 
 /// The place that `text` means: coordinates in any spelling, or the best match of a name, which the label of the result tells.
 ///
-/// Raises :class:`InputError` if it is neither.
+/// Raises :class:`InputError` if it is neither; the message has the nearest spellings.
 ///
 /// Parameters
 /// ----------
