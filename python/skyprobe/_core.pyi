@@ -67,6 +67,8 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "TimeFields",
+    "TimeWarning",
     "ToneReport",
     "__version__",
     "auto_exposure",
@@ -78,9 +80,11 @@ __all__ = [
     "locate_place",
     "nearest_place",
     "parse_coordinates",
+    "parse_time",
     "point_spread_function",
     "run_command_line",
     "search_places",
+    "suggest_places",
     "tone_map",
     "zone_of_place",
 ]
@@ -101,6 +105,9 @@ class ScaleWarning(UserWarning):
 
 class SunlightOnlyWarning(UserWarning):
     """A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."""
+
+class TimeWarning(UserWarning):
+    """Something had to be assumed about a time: its clocks show it never or twice, it is a date alone, or it has a second 60. The message says which instant is taken."""
 
 @final
 class Phase:
@@ -661,7 +668,8 @@ class Sky:
     longitude
         East positive, -180 to 180. [degrees]
     time
-        ISO 8601 text, or an aware ``datetime``. A text without offset is local time in ``zone``.
+        ISO 8601 text, an aware ``datetime``, or a ``date``, which is its noon. A text without offset is local time in ``zone``; it may be a date alone
+        or "now". What has to be assumed (clocks show it never or twice, noon) is a :class:`TimeWarning`, and ``time_notice``.
     atmosphere
         The air.
     elevation_m
@@ -684,7 +692,7 @@ class Sky:
         *,
         latitude: float,
         longitude: float,
-        time: str | datetime.datetime,
+        time: str | datetime.datetime | datetime.date,
         atmosphere: Atmosphere,
         elevation_m: float = 0.0,
         zone: str | None = None,
@@ -736,6 +744,11 @@ class Sky:
     @property
     def time(self) -> datetime.datetime | None:
         """The time, with its offset."""
+
+    @property
+    def time_notice(self) -> str | None:
+        """What had to be assumed about the time, in a sentence: that clocks show it never or twice and which instant is taken, that a date alone is its
+        noon, that a second 60 is the one before; None for a time that says all."""
 
     @property
     def zone(self) -> str | None:
@@ -1090,7 +1103,7 @@ class Probe:
 
 @final
 class Place:
-    """A town, a village or an observatory of the gazetteer."""
+    """A place of the gazetteer: a town, a village, an observatory, a country, a region, an island or a landmark."""
 
     @property
     def name(self) -> str:
@@ -1109,8 +1122,13 @@ class Place:
         """Code of the country, two letters (ISO 3166-1)."""
 
     @property
-    def kind(self) -> Literal["town", "observatory"]:
-        """"town" (or a village, or a part of one) or "observatory"."""
+    def kind(self) -> Literal["town", "observatory", "country", "region", "island", "landmark"]:
+        """"town" (or a village, or a part of one), "observatory", "country", "region", "island" or "landmark"."""
+
+    @property
+    def seat(self) -> str:
+        """The town whose coordinates, elevation and zone stand for a country (its capital), a region (its seat) or an island (its chief town); empty for
+        others."""
 
     @property
     def latitude(self) -> float:
@@ -1134,11 +1152,11 @@ class Place:
 
     @property
     def label(self) -> str:
-        """Name, region and country, such as "Lund, Skåne, Sweden"."""
+        """Name, region and country, such as "Lund, Skåne, Sweden", and the town that stands for it: "Iceland (Reykjavík)"."""
 
 @final
 class NearestPlace:
-    """The place nearest to coordinates, and where they are seen from it."""
+    """The town or observatory nearest to coordinates, and where they are seen from it."""
 
     @property
     def place(self) -> Place:
@@ -1209,6 +1227,51 @@ class CivilTime:
         """How often clocks show the local time that was given: "once"; "repeated" (clocks are set back: the first is taken); "skipped" (clocks are set
         forward: the time as far after the gap is taken)."""
 
+    @property
+    def notice(self) -> str | None:
+        """What had to be assumed, in a sentence: that clocks show the time never or twice and which instant is taken, that a date alone is its noon, that a
+        second 60 is the one before; None for a time that says all."""
+
+@final
+class TimeFields:
+    """What a text says of a time, for programs that keep date, time of day, offset and zone apart."""
+
+    @property
+    def year(self) -> int:
+        """Gregorian year, 1000 to 3000."""
+
+    @property
+    def month(self) -> int:
+        """Month, 1 to 12."""
+
+    @property
+    def day(self) -> int:
+        """Day of the month, 1 to 31."""
+
+    @property
+    def hour(self) -> int:
+        """Hour, 0 to 23, in the zone that the text names, at its offset, or local where it says neither; "now" is in UTC."""
+
+    @property
+    def minute(self) -> int:
+        """Minute, 0 to 59."""
+
+    @property
+    def second(self) -> float:
+        """Second with its fraction, 0 to below 60."""
+
+    @property
+    def utc_offset_h(self) -> float | None:
+        """Local time minus UTC, where the text says offset or zone, else None. In an hour that clocks show twice it tells which is meant. [h]"""
+
+    @property
+    def zone(self) -> str | None:
+        """IANA name of the zone that the text names, else None."""
+
+    @property
+    def notice(self) -> str | None:
+        """What had to be assumed, in a sentence, as ``CivilTime.notice``; without a zone in the text it is not known whether its clocks show the time."""
+
 def search_places(text: str, limit: int = 10) -> list[Place]:
     """Places whose name, or another name, matches `text`: the best first. Up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
 
@@ -1221,10 +1284,25 @@ def search_places(text: str, limit: int = 10) -> list[Place]:
         What a person has typed so far.
     limit
         How many places at most.
+
+    More than 200 bytes, 16 words or 6 commas find nothing.
+    """
+
+def suggest_places(text: str, limit: int = 5) -> list[Place]:
+    """Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stokholm" suggests Stockholm.
+
+    Up to two letters may be missing, wrong, too many or swapped, one in words of four letters or fewer. The nearest come first, then the largest; some 30 ms.
+
+    Parameters
+    ----------
+    text
+        As for ``search``; more than 40 letters suggest nothing.
+    limit
+        How many places at most.
     """
 
 def nearest_place(latitude: float, longitude: float) -> NearestPlace:
-    """The place nearest to coordinates.
+    """The town or observatory nearest to coordinates.
 
     Parameters
     ----------
@@ -1237,7 +1315,7 @@ def nearest_place(latitude: float, longitude: float) -> NearestPlace:
 def locate_place(text: str) -> Location:
     """The place that `text` means: coordinates in any spelling, or the best match of a name, which the label of the result tells.
 
-    Raises :class:`InputError` if it is neither.
+    Raises :class:`InputError` if it is neither; the message has the nearest spellings.
 
     Parameters
     ----------
@@ -1298,7 +1376,7 @@ def civil_time(time: str, latitude: float, longitude: float, zone: str | None = 
     Parameters
     ----------
     time
-        Date and time, ISO 8601: without offset it is local time.
+        Date and time, ISO 8601: without offset it is local time; a date alone is its noon; "now".
     latitude
         Geodetic latitude, -90 to 90. [degrees]
     longitude
@@ -1317,6 +1395,19 @@ def check_files(inputs: Sequence[str | os.PathLike[str]], outputs: Sequence[str 
     outputs
         Files that will be written: each must be in a folder that is there, must not be read-only, and must be neither an input nor another output,
         however they are spelt (relative, through links, in another case where the system does not tell cases apart).
+    """
+
+def parse_time(text: str) -> TimeFields:
+    """Date, time of day, offset and zone that a text says, without knowing the place.
+
+    ISO 8601 and RFC 9557 as ``Sky`` reads them: "2005-06-21T13:00:00+02:00", "2005-06-21 13:00", "2005-06-21T13+02",
+    "2005-06-21T13:00[Europe/Stockholm]", "2005-06-21T11:00Z[Europe/Stockholm]" (13:00 there), "2005-06-21" (its noon), "now". Raises
+    :class:`InputError` for what cannot be read.
+
+    Parameters
+    ----------
+    text
+        The time, at most 100 bytes.
     """
 
 def run_command_line(arguments: Sequence[str]) -> int:

@@ -2,7 +2,7 @@
 
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
-use super::options::{ConfigOptions, PlaceOptions};
+use super::options::{ConfigOptions, PlaceOptions, tell_time};
 use super::{answer, files, say, terminal};
 use crate::error::{Error, Result, check_range};
 use crate::io::{Config, Format, SampleMap, describe, each_once, json, render_with};
@@ -218,7 +218,7 @@ impl Options {
             }
             config.output.push(preview.clone());
         }
-        config.output = distinct(&config.output).into_iter().map(Path::to_path_buf).collect();
+        config.output = each_once(&config.output).into_iter().cloned().collect();
         if let Some(name) = &self.model {
             config.light.model = name.parse()?;
         }
@@ -279,6 +279,7 @@ const SAMPLE_MAP_WIDTH: usize = 1024;
 pub fn run(options: &Options) -> Result<()> {
     let mut config = options.config()?;
     let inputs = options.config.input();
+    tell_time(&config);
     if options.config.dump_config {
         files::check(inputs.as_slice(), &[])?;
     }

@@ -11,8 +11,14 @@ mod link;
 mod plain;
 mod tokens;
 
-use crate::error::{Error, Result, check_range};
+use crate::error::{Error, Result, check_range, quoted};
 use std::fmt;
+
+/// Longest link that is read [bytes]; those of maps have some hundred.
+const LONGEST_LINK: usize = 4096;
+
+/// Longest text of anything else [bytes].
+const LONGEST_TEXT: usize = 200;
 
 /// A point of the globe.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,10 +71,15 @@ impl Coordinates {
     /// Reads coordinates in any of the usual spellings; see the [module](self).
     ///
     /// # Errors
-    /// [`Error::Input`] for `latitude` or `longitude` out of range, and for `coordinates` if the text cannot be read, or in two ways.
+    /// [`Error::Input`] for `latitude` or `longitude` out of range, and for `coordinates` if the text cannot be read, or in two ways, or has more than
+    /// 200 bytes, a link more than 4096.
     pub fn parse(text: &str) -> Result<Self> {
+        if text.len() > LONGEST_LINK {
+            return Err(too_long(text));
+        }
         match link::find(text) {
             Some(found) => found,
+            None if text.len() > LONGEST_TEXT => Err(too_long(text)),
             None => plain::read(text),
         }
     }
@@ -116,12 +127,19 @@ fn letter(value: f64, [positive, negative]: [char; 2]) -> char {
     if value < 0.0 { negative } else { positive }
 }
 
-/// That `text` is not coordinates, for a reason.
-fn refuse(text: &str, reason: &str) -> Error {
-    let text: String = text.trim().chars().take(80).collect();
+fn too_long(text: &str) -> Error {
     Error::input(
         "coordinates",
-        format!("{text:?}"),
+        quoted(text),
+        format!("a text of at most {LONGEST_TEXT} bytes, or a link of at most {LONGEST_LINK}"),
+    )
+}
+
+/// That `text` is not coordinates, for a reason.
+fn refuse(text: &str, reason: &str) -> Error {
+    Error::input(
+        "coordinates",
+        quoted(text.trim()),
         format!("latitude and longitude such as 55.71, 13.19 or 55 42 36 N 13 11 24 E ({reason})"),
     )
 }

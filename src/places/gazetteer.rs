@@ -1,7 +1,8 @@
-//! The gazetteer: towns and villages of the world, and some observatories.
+//! The gazetteer: towns and villages of the world, countries, regions, islands and landmarks, and some observatories.
 //!
 //! `data/places.bin` has the places of GeoNames (CC BY 4.0, which must be credited) with at least 500 inhabitants or the seat of a
-//! district, and 22 observatories; `data/scripts/places.py` makes it and states its layout. Coordinates are rounded to 0.001 degrees,
+//! district, 22 observatories and the landmarks of `data/landmarks.txt`; `data/scripts/places.py` makes it and states its layout. A country stands where
+//! its capital is, a region where its seat is, an island where its chief town is. Coordinates are rounded to 0.001 degrees,
 //! elevations are those of GeoNames (surveyed, or of its elevation model with an error of some 10 m; the coarse map of the
 //! heights where it has none), populations are within 3 %.
 
@@ -19,6 +20,50 @@ pub enum PlaceKind {
     Town,
     /// An observatory.
     Observatory,
+    /// A country, at its capital.
+    Country,
+    /// A state, province or county, at its seat.
+    Region,
+    /// An island, at its chief town.
+    Island,
+    /// A mountain, a building, a lake or the like.
+    Landmark,
+}
+
+impl PlaceKind {
+    /// Its name: "town", "observatory", "country", "region", "island" or "landmark".
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Town => "town",
+            Self::Observatory => "observatory",
+            Self::Country => "country",
+            Self::Region => "region",
+            Self::Island => "island",
+            Self::Landmark => "landmark",
+        }
+    }
+
+    fn of(letter: u8) -> Option<Self> {
+        Some(match letter {
+            b't' => Self::Town,
+            b'o' => Self::Observatory,
+            b'c' => Self::Country,
+            b'r' => Self::Region,
+            b'i' => Self::Island,
+            b'l' => Self::Landmark,
+            _ => return None,
+        })
+    }
+
+    /// Whether coordinates are called by it: places that have one point.
+    pub(super) fn is_point(self) -> bool {
+        matches!(self, Self::Town | Self::Observatory)
+    }
+
+    /// Whether it has the coordinates of a town.
+    fn has_seat(self) -> bool {
+        matches!(self, Self::Country | Self::Region | Self::Island)
+    }
 }
 
 /// A place of the gazetteer.
@@ -27,7 +72,7 @@ pub enum PlaceKind {
 pub struct NamedPlace {
     /// Its name, as GeoNames writes it: mostly that of its country's language, in Latin letters.
     pub name: &'static str,
-    /// The state, province or county that it lies in; empty where none is known.
+    /// The state, province or county that it lies in; empty where none is known, and of countries and regions.
     pub region: &'static str,
     /// English name of the country.
     pub country: &'static str,
@@ -35,6 +80,8 @@ pub struct NamedPlace {
     pub country_code: &'static str,
     /// What it is.
     pub kind: PlaceKind,
+    /// The town whose coordinates, elevation and zone stand for a country (its capital), a region (its seat) or an island (its chief town); empty for others.
+    pub seat: &'static str,
     /// Geodetic latitude, positive north [degrees], to 0.001.
     pub latitude_deg: f64,
     /// Longitude, positive east [degrees], to 0.001.
@@ -48,7 +95,8 @@ pub struct NamedPlace {
 }
 
 impl NamedPlace {
-    /// Name, region and country, such as "Lund, Skåne, Sweden". [`super::search`] for it finds the place, or a larger one that is called the same.
+    /// Name, region and country, such as "Lund, Skåne, Sweden", and the town whose coordinates stand for it where one does: "Iceland (Reykjavík)".
+    /// [`super::search`] for it finds the place, or a larger one that is called the same.
     pub fn label(&self) -> String {
         let mut label = self.name.to_string();
         for part in [self.region, self.country] {
@@ -56,6 +104,11 @@ impl NamedPlace {
                 label.push_str(", ");
                 label.push_str(part);
             }
+        }
+        if !self.seat.is_empty() {
+            label.push_str(" (");
+            label.push_str(self.seat);
+            label.push(')');
         }
         label
     }
@@ -91,8 +144,21 @@ pub(super) struct Row {
     zone: u16,
     pub region: u16,
     /// See [`population`].
-    pub population: u8,
-    is_observatory: bool,
+    population: u8,
+    pub kind: PlaceKind,
+}
+
+/// What an island, a country or a landmark weighs at least among places of the same name: as a town of 200 000 inhabitants, 22 ln (200 000 / 300).
+const LEAST_WEIGHT: u8 = 143;
+
+impl Row {
+    /// How important it is, in codes of populations.
+    pub fn weight(&self) -> u8 {
+        match self.kind {
+            PlaceKind::Town | PlaceKind::Observatory | PlaceKind::Region => self.population,
+            PlaceKind::Country | PlaceKind::Island | PlaceKind::Landmark => self.population.max(LEAST_WEIGHT),
+        }
+    }
 }
 
 struct Country {
@@ -123,21 +189,38 @@ pub(super) struct Keys {
 impl Gazetteer {
     pub fn place(&'static self, index: usize) -> NamedPlace {
         let row = &self.rows[index];
-        let name_start = if index == 0 { 0 } else { self.rows[index - 1].name_end };
         let region = &self.regions[usize::from(row.region)];
         let country = &self.countries[usize::from(region.country)];
+        let is_whole = matches!(row.kind, PlaceKind::Country | PlaceKind::Region);
         NamedPlace {
-            name: &self.names[name_start as usize..row.name_end as usize],
-            region: &region.name,
+            name: self.name(index),
+            region: if is_whole { "" } else { &region.name },
             country: &country.name,
             country_code: &country.code,
-            kind: if row.is_observatory { PlaceKind::Observatory } else { PlaceKind::Town },
+            kind: row.kind,
+            seat: if row.kind.has_seat() { self.seat(index) } else { "" },
             latitude_deg: f64::from(row.latitude) / 1000.0,
             longitude_deg: f64::from(row.longitude) / 1000.0,
             elevation_m: f64::from(row.elevation_m),
-            population: population(row.population),
+            population: population(row.population).filter(|_| row.kind.is_point()),
             time_zone: &self.zones[usize::from(row.zone)],
         }
+    }
+
+    fn name(&self, index: usize) -> &str {
+        let start = if index == 0 { 0 } else { self.rows[index - 1].name_end };
+        &self.names[start as usize..self.rows[index].name_end as usize]
+    }
+
+    /// The largest town with the coordinates of the place: it stands beside it, as rows are sorted by region and latitude.
+    fn seat(&self, index: usize) -> &str {
+        let here = &self.rows[index];
+        let beside = |row: &&(usize, &Row)| (row.1.region, row.1.latitude) == (here.region, here.latitude);
+        let before = self.rows[..index].iter().enumerate().rev();
+        let after = self.rows.iter().enumerate().skip(index);
+        let near = before.take_while(|row| beside(&row)).chain(after.take_while(|row| beside(&row)));
+        let towns = near.filter(|(_, row)| row.kind == PlaceKind::Town && row.longitude == here.longitude);
+        towns.max_by_key(|(_, row)| row.population).map_or("", |(index, _)| self.name(index))
     }
 
     fn read(bytes: &[u8]) -> Option<Self> {
@@ -181,7 +264,7 @@ impl Gazetteer {
                 zone: u16::from_le_bytes([*zone_of.get(2 * index)?, *zone_of.get(2 * index + 1)?]),
                 region: region_of.next()?,
                 population: *populations.get(index)?,
-                is_observatory: *kinds.get(index)? == b'o',
+                kind: PlaceKind::of(*kinds.get(index)?)?,
             });
         }
         let whole = gazetteer.rows.len() == places && bytes.0.is_empty();
@@ -322,6 +405,33 @@ mod tests {
         for zone in &GAZETTEER.zones {
             Time::parse("2005-06-21T13:00", ZoneChoice::Named(zone)).unwrap();
         }
+    }
+
+    #[test]
+    fn countries_regions_and_islands_are_where_their_towns_are() {
+        for (name, label, kind) in [
+            ("Iceland", "Iceland (Reykjavík)", PlaceKind::Country),
+            ("Bali", "Bali, Indonesia (Denpasar)", PlaceKind::Region),
+            ("Santorini", "Santorini, South Aegean, Greece (Firá)", PlaceKind::Island),
+            ("Uluru", "Uluru, Australia", PlaceKind::Landmark),
+        ] {
+            let place = best(name);
+            assert_eq!((place.label().as_str(), place.kind, place.population), (label, kind, None), "{place:?}");
+            assert_eq!(best(label), place);
+            if !place.seat.is_empty() {
+                let town = best(&format!("{}, {}", place.seat, place.country));
+                assert_eq!(
+                    (town.latitude_deg, town.longitude_deg, town.elevation_m, town.time_zone),
+                    (place.latitude_deg, place.longitude_deg, place.elevation_m, place.time_zone)
+                );
+            }
+        }
+        let all = || (0..count()).map(|index| GAZETTEER.place(index));
+        assert!(all().filter(|place| place.kind.has_seat()).all(|place| !place.seat.is_empty()));
+        let landmarks = all().filter(|place| place.kind == PlaceKind::Landmark);
+        assert!(
+            landmarks.filter(|place| crate::time::zone_of_place(place.latitude_deg, place.longitude_deg).is_ok()).count() > 100
+        );
     }
 
     #[test]

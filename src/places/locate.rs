@@ -2,8 +2,14 @@
 
 use super::coordinates::Coordinates;
 use super::gazetteer::NamedPlace;
-use super::{elevation_m, nearest, search};
-use crate::error::{Error, Result};
+use super::{elevation_m, nearest, search, suggest};
+use crate::error::{Error, Result, quoted};
+
+/// Longest name that is looked for [bytes].
+const LONGEST_NAME: usize = 200;
+
+/// How many places are suggested for a name that is not found.
+const SUGGESTIONS: usize = 3;
 
 /// Where a text says to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +30,7 @@ pub struct Location {
 /// The place that `text` means: coordinates if it can be read as such, else the best match of [`search`], which [`Location::label`] tells.
 ///
 /// # Errors
-/// [`Error::Input`] for `place` if it is neither; for `latitude`, `longitude` or `coordinates` if it has numbers that are not right.
+/// [`Error::Input`] for `place` if it is neither, with the nearest spellings that there are ([`suggest`]); for `latitude`, `longitude` or `coordinates` if it has numbers that are not right.
 pub fn locate(text: &str) -> Result<Location> {
     let unreadable = match Coordinates::parse(text) {
         Ok(Coordinates { latitude_deg, longitude_deg }) => {
@@ -46,10 +52,13 @@ pub fn locate(text: &str) -> Result<Location> {
             place: Some(place),
             label: place.label(),
         }),
-        None if text.contains(|letter: char| letter.is_ascii_digit()) => Err(unreadable),
+        None if text.contains(|letter: char| letter.is_ascii_digit()) || text.len() > LONGEST_NAME => Err(unreadable),
         None => {
-            let allowed = "the name of a town that the gazetteer has, such as Lund, Sweden, or coordinates, such as 55.71, 13.19";
-            Err(Error::input("place", format!("{text:?}"), allowed))
+            let allowed = "the name of a town, a country, an island or a landmark that the gazetteer has, such as Lund, Sweden, or coordinates, such as \
+                           55.71, 13.19";
+            let near: Vec<String> = suggest(text, SUGGESTIONS).iter().map(NamedPlace::label).collect();
+            let meant = if near.is_empty() { String::new() } else { format!("; nearest spellings: {}", near.join("; ")) };
+            Err(Error::input("place", quoted(text), format!("{allowed}{meant}")))
         }
     }
 }
@@ -72,6 +81,9 @@ mod tests {
     #[test]
     fn what_is_neither_is_refused_by_what_it_looks_like() {
         assert!(locate("Qqqxx").unwrap_err().to_string().starts_with("place = \"Qqqxx\": must be the name of a town"));
+        let message = locate("Stokholm").unwrap_err().to_string();
+        assert!(message.contains("nearest spellings: Stockholm, Stockholm, Sweden"), "{message}");
+        assert!(locate(&"x".repeat(80_000)).unwrap_err().to_string().contains("at most 200 bytes"));
         assert!(locate("").unwrap_err().to_string().starts_with("place = \"\""));
         assert!(locate("95, 13").unwrap_err().to_string().starts_with("latitude = 95"));
         assert!(locate("55.71, 13.19, 5").unwrap_err().to_string().starts_with("coordinates = "));

@@ -11,6 +11,7 @@ mod gazetteer;
 mod locate;
 mod nearest;
 mod search;
+mod suggest;
 mod terrain;
 
 pub use coordinates::{CoordinateStyle, Coordinates};
@@ -18,4 +19,5 @@ pub use gazetteer::{NamedPlace, PlaceKind, count};
 pub use locate::{Location, locate};
 pub use nearest::{Nearest, nearest};
 pub use search::search;
+pub use suggest::suggest;
 pub use terrain::elevation_m;

@@ -39,7 +39,7 @@ impl Nearest {
     }
 }
 
-/// The place of the gazetteer that is nearest to coordinates [degrees]. Takes about a millisecond.
+/// The town or observatory of the gazetteer that is nearest to coordinates [degrees]. Takes about a millisecond.
 ///
 /// # Errors
 /// [`crate::Error::Input`] for `latitude` outside -90 to 90 or `longitude` outside -180 to 180 degrees.
@@ -53,7 +53,7 @@ pub fn nearest(latitude_deg: f64, longitude_deg: f64) -> Result<Nearest> {
     // In units of the gazetteer: the difference in latitude alone puts most places out of question.
     let (row_latitude, mut reach) = (latitude_deg * 1000.0, f64::INFINITY);
     for (index, row) in gazetteer.rows.iter().enumerate() {
-        if (f64::from(row.latitude) - row_latitude).abs() > reach {
+        if (f64::from(row.latitude) - row_latitude).abs() > reach || !row.kind.is_point() {
             continue;
         }
         let there = ((f64::from(row.latitude) / 1000.0).to_radians(), (f64::from(row.longitude) / 1000.0).to_radians());
@@ -139,7 +139,7 @@ mod tests {
         fn nothing_is_nearer(latitude in -90.0..=90.0, longitude in -180.0..=180.0) {
             let found = nearest(latitude, longitude).unwrap();
             let here = (latitude.to_radians(), longitude.to_radians());
-            let smallest = GAZETTEER.rows.iter().map(|row| {
+            let smallest = GAZETTEER.rows.iter().filter(|row| row.kind.is_point()).map(|row| {
                 let there = ((f64::from(row.latitude) / 1000.0).to_radians(), (f64::from(row.longitude) / 1000.0).to_radians());
                 haversine(here, there)
             }).fold(f64::INFINITY, f64::min);

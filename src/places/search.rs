@@ -49,19 +49,43 @@ enum Exactness {
 /// or country; inhabitants; the place.
 type Rank = (bool, Exactness, u8, Reverse<u8>, u32);
 
+/// Longest text that is searched [bytes], and in how many parts and words at most: the longest names have 14 words, and the work grows with all three.
+const LONGEST_TEXT: usize = 200;
+const MOST_PARTS: usize = 7;
+const MOST_WORDS: usize = 16;
+
 /// Places whose name, or another name, matches `text`: the best first, at most `limit`. Takes up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
 ///
 /// Case, accents and hyphens do not count: "goteborg" finds Göteborg, and so does "gothenburg". Words may be begun only: "los ang". Region
 /// and country may follow the name, by name, by its beginning or by code; after a comma one letter will do, without it a code or
-/// three letters. An empty text finds nothing.
+/// three letters. An empty text finds nothing, and neither does one of more than 200 bytes, 16 words or 6 commas.
 pub fn search(text: &str, limit: usize) -> Vec<NamedPlace> {
+    let found = search_all(text, limit);
+    // Labels have the town that stands for a country or an island in brackets.
+    match text.split_once(" (") {
+        Some((before, _)) if found.is_empty() => search_all(before, limit),
+        _ => found,
+    }
+}
+
+/// Name and what follows it after commas, folded; `None` if there is nothing, or more than anyone writes.
+pub(super) fn parts(text: &str) -> Option<(String, Vec<String>)> {
+    if text.len() > LONGEST_TEXT {
+        return None;
+    }
+    let mut parts = text.split(',').map(fold).filter(|part| !part.is_empty());
+    let (name, after_commas) = (parts.next()?, parts.collect::<Vec<_>>());
+    let mut words = std::iter::once(&name).chain(&after_commas).map(|part| part.split(' ').count());
+    (after_commas.len() < MOST_PARTS && words.all(|count| count <= MOST_WORDS)).then_some((name, after_commas))
+}
+
+fn search_all(text: &str, limit: usize) -> Vec<NamedPlace> {
     let gazetteer = &*GAZETTEER;
-    let parts: Vec<String> = text.split(',').map(fold).filter(|part| !part.is_empty()).collect();
-    let Some((name, after_commas)) = parts.split_first() else { return Vec::new() };
+    let Some((name, after_commas)) = parts(text) else { return Vec::new() };
     let words: Vec<&str> = name.split(' ').collect();
     let mut ranks = Vec::new();
     for (name, last_words) in (1..=words.len()).map(|count| words.split_at(count)) {
-        let Some(qualities) = qualities(gazetteer, last_words, after_commas) else { continue };
+        let Some(qualities) = qualities(gazetteer, last_words, &after_commas) else { continue };
         for variant in variants(name) {
             match_names(gazetteer, &variant, &qualities, &mut |exactness, quality, population, place| {
                 ranks.push((!last_words.is_empty() && quality > 0, exactness, quality, Reverse(population), place));
@@ -129,7 +153,7 @@ fn match_names(gazetteer: &Gazetteer, wanted: &str, qualities: &[Option<u8>], fo
         if let Some(exactness) = exactness(&keys.text[at..end], &words, at == keys.starts[key] as usize) {
             let is_main_name = key == 0 || keys.places[key - 1] != place;
             let counts_in_full = is_main_name || exactness == Exactness::Whole;
-            let population = row.population.saturating_sub(if counts_in_full { 0 } else { OTHER_NAME_CODES });
+            let population = row.weight().saturating_sub(if counts_in_full { 0 } else { OTHER_NAME_CODES });
             found(exactness, quality, population, place);
         }
     }
@@ -154,33 +178,41 @@ fn exactness(key: &str, words: &[&str], from_start: bool) -> Option<Exactness> {
 }
 
 /// For each region how exactly it, or its country, is what was asked for; `None` for the whole if none is.
-fn qualities(gazetteer: &Gazetteer, last_words: &[&str], after_commas: &[String]) -> Option<Vec<Option<u8>>> {
-    let qualities: Vec<Option<u8>> = gazetteer
-        .regions
-        .iter()
-        .map(|region| {
-            let mut quality = if last_words.is_empty() { 0 } else { region_quality(region, last_words, 3)? };
-            for part in after_commas {
-                quality = quality.max(region_quality(region, &part.split(' ').collect::<Vec<_>>(), 1)?);
-            }
-            Some(quality)
-        })
-        .collect();
+pub(super) fn qualities(gazetteer: &Gazetteer, last_words: &[&str], after_commas: &[String]) -> Option<Vec<Option<u8>>> {
+    let mut wanted: Vec<Wanted> = after_commas.iter().map(|part| Wanted::new(&part.split(' ').collect::<Vec<_>>(), 1)).collect();
+    if !last_words.is_empty() {
+        wanted.push(Wanted::new(last_words, 3));
+    }
+    let quality = |region: &Region| wanted.iter().try_fold(0, |worst: u8, wanted| Some(worst.max(wanted.quality(region)?)));
+    let qualities: Vec<Option<u8>> = gazetteer.regions.iter().map(quality).collect();
     qualities.iter().any(Option::is_some).then_some(qualities)
 }
 
-/// 0 if `words` are name or code of the region or of its country, or both in this order; 1 if they are the beginning of a name, of at least
-/// `shortest` letters; `None` otherwise.
-fn region_quality(region: &Region, words: &[&str], shortest: usize) -> Option<u8> {
-    let phrase = words.join(" ");
-    let whole = (0..2).filter_map(|of| part_quality(region, of, &phrase, shortest)).min();
-    whole.or_else(|| {
-        (1..words.len()).find_map(|at| {
-            let in_region = part_quality(region, 0, &words[..at].join(" "), shortest)?;
-            let in_country = part_quality(region, 1, &words[at..].join(" "), shortest)?;
-            Some(in_region.max(in_country))
+/// Region or country, or both, that a place must lie in.
+struct Wanted {
+    phrase: String,
+    /// The words cut in two, for region and country.
+    pairs: Vec<(String, String)>,
+    /// Fewest letters of which a beginning may consist.
+    shortest: usize,
+}
+
+impl Wanted {
+    fn new(words: &[&str], shortest: usize) -> Self {
+        let pairs = (1..words.len()).map(|at| (words[..at].join(" "), words[at..].join(" "))).collect();
+        Self { phrase: words.join(" "), pairs, shortest }
+    }
+
+    /// 0 if it is name or code of the region or of its country, or both in this order; 1 if it is the beginning of a name; `None` otherwise.
+    fn quality(&self, region: &Region) -> Option<u8> {
+        let whole = (0..2).filter_map(|of| part_quality(region, of, &self.phrase, self.shortest)).min();
+        whole.or_else(|| {
+            self.pairs.iter().find_map(|(in_region, in_country)| {
+                let in_country = part_quality(region, 1, in_country, self.shortest)?;
+                Some(part_quality(region, 0, in_region, self.shortest)?.max(in_country))
+            })
         })
-    })
+    }
 }
 
 /// The same for the region alone (0) or its country (1).
@@ -345,7 +377,59 @@ mod tests {
         }
     }
 
+    #[test]
+    fn countries_islands_and_landmarks_are_found_before_villages() {
+        for (text, name, country) in [
+            ("Santorini", "Santorini", "GR"),
+            ("thera", "Santorini", "GR"),
+            ("bora bora", "Bora Bora", "PF"),
+            ("bora-bora", "Bora Bora", "PF"),
+            ("Uluru", "Uluru", "AU"),
+            ("ayers rock", "Uluru", "AU"),
+            ("stonehenge", "Stonehenge", "GB"),
+            ("Iceland", "Iceland", "IS"),
+            ("Bali", "Bali", "ID"),
+            ("hawaii", "Hawaii", "US"),
+            ("Sicily", "Sicily", "IT"),
+            ("tasmania", "Tasmania", "AU"),
+            ("Greenland", "Greenland", "GL"),
+            ("japan", "Japan", "JP"),
+            ("easter island", "Easter Island", "CL"),
+            ("rapa nui", "Easter Island", "CL"),
+            ("Mallorca", "Mallorca", "ES"),
+            ("isle of skye", "Skye", "GB"),
+            ("mount everest", "Mount Everest", "NP"),
+            ("machu picchu", "Machu Picchu", "PE"),
+            ("south pole", "South Pole", "AQ"),
+            // A town that a region or country is called after is meant.
+            ("new york", "New York City", "US"),
+            ("luxembourg", "Luxembourg", "LU"),
+            ("quebec", "Québec", "CA"),
+            ("washington", "Washington", "US"),
+            ("valencia", "Valencia", "ES"),
+        ] {
+            assert_eq!(country_of(text), (name, country), "{text}: {:?}", labels(text, 5));
+        }
+    }
+
+    #[test]
+    fn more_than_anyone_writes_finds_nothing() {
+        assert!(search(&"lund ".repeat(17), 5).is_empty());
+        assert!(search(&"lund,".repeat(8), 5).is_empty());
+        assert!(search(&"l".repeat(201), 5).is_empty());
+        assert!(search(&"9 ".repeat(40_000), 5).is_empty());
+        assert_eq!(search("lund,,,,,,,sweden", 1)[0].name, "Lund");
+    }
+
     proptest! {
+        /// Words that begin regions and countries are the most work: each may end the name.
+        #[test]
+        fn the_work_is_bounded(words in proptest::collection::vec("(san|new|sou|uni|north|st|a|de|[a-z]{1,3}|[0-9]{1,4}|e\u{301}{1,9})[ ,-]?", 1..400)) {
+            prop_assert!(search(&words.concat(), 3).len() <= 3);
+            prop_assert!(search(&words.join(" "), 3).len() <= 3);
+            prop_assert!(super::super::suggest(&words.join(" "), 3).len() <= 3);
+        }
+
         #[test]
         fn no_text_brings_the_search_down(text in ".{0,40}") {
             prop_assert!(search(&text, 3).len() <= 3);

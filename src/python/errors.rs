@@ -24,6 +24,12 @@ create_exception!(
     PyUserWarning,
     "A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."
 );
+create_exception!(
+    skyprobe,
+    TimeWarning,
+    PyUserWarning,
+    "Something had to be assumed about a time: its clocks show it never or twice, it is a date alone, or it has a second 60. The message says which instant is taken."
+);
 
 impl From<Error> for PyErr {
     fn from(error: Error) -> Self {

@@ -1,11 +1,11 @@
 //! `skyprobe.places`: names, coordinates, elevation, zones.
 
 use super::results::datetime;
-use crate::places::{self, CoordinateStyle, Coordinates, NamedPlace, PlaceKind};
+use crate::places::{self, CoordinateStyle, Coordinates, NamedPlace};
 use crate::time::{self, Occurrence, ZoneChoice};
 use pyo3::prelude::*;
 
-/// A town, a village or an observatory of the gazetteer.
+/// A place of the gazetteer: a town, a village, an observatory, a country, a region, an island or a landmark.
 #[pyclass(frozen, module = "skyprobe.places")]
 pub struct Place {
     inner: NamedPlace,
@@ -37,13 +37,17 @@ impl Place {
         self.inner.country_code
     }
 
-    /// "town" (or a village, or a part of one) or "observatory".
+    /// "town" (or a village, or a part of one), "observatory", "country", "region", "island" or "landmark".
     #[getter]
     fn kind(&self) -> &'static str {
-        match self.inner.kind {
-            PlaceKind::Town => "town",
-            PlaceKind::Observatory => "observatory",
-        }
+        self.inner.kind.name()
+    }
+
+    /// The town whose coordinates, elevation and zone stand for a country (its capital), a region (its seat) or an island (its chief town); empty for
+    /// others.
+    #[getter]
+    fn seat(&self) -> &'static str {
+        self.inner.seat
     }
 
     /// Geodetic latitude, positive north, to 0.001. [degrees]
@@ -76,7 +80,7 @@ impl Place {
         self.inner.time_zone
     }
 
-    /// Name, region and country, such as "Lund, Skåne, Sweden".
+    /// Name, region and country, such as "Lund, Skåne, Sweden", and the town that stands for it: "Iceland (Reykjavík)".
     #[getter]
     fn label(&self) -> String {
         self.inner.label()
@@ -88,7 +92,7 @@ impl Place {
     }
 }
 
-/// The place nearest to coordinates, and where they are seen from it.
+/// The town or observatory nearest to coordinates, and where they are seen from it.
 #[pyclass(frozen, module = "skyprobe.places")]
 pub struct NearestPlace {
     inner: places::Nearest,
@@ -218,10 +222,103 @@ impl CivilTime {
         }
     }
 
+    /// What had to be assumed, in a sentence: that clocks show the time never or twice and which instant is taken, that a date alone is its noon, that a
+    /// second 60 is the one before; None for a time that says all.
+    #[getter]
+    fn notice(&self) -> Option<&str> {
+        self.inner.time.notice()
+    }
+
     fn __repr__(&self) -> String {
         let time::CivilTime { time, abbreviation, .. } = &self.inner;
         format!("<CivilTime {time} {abbreviation}>")
     }
+}
+
+/// What a text says of a time, for programs that keep date, time of day, offset and zone apart.
+#[pyclass(frozen, module = "skyprobe.places")]
+pub struct TimeFields {
+    inner: time::TimeFields,
+}
+
+#[pymethods]
+impl TimeFields {
+    /// Gregorian year, 1000 to 3000.
+    #[getter]
+    fn year(&self) -> i16 {
+        self.inner.civil.year
+    }
+
+    /// Month, 1 to 12.
+    #[getter]
+    fn month(&self) -> i8 {
+        self.inner.civil.month
+    }
+
+    /// Day of the month, 1 to 31.
+    #[getter]
+    fn day(&self) -> i8 {
+        self.inner.civil.day
+    }
+
+    /// Hour, 0 to 23, in the zone that the text names, at its offset, or local where it says neither; "now" is in UTC.
+    #[getter]
+    fn hour(&self) -> i8 {
+        self.inner.civil.hour
+    }
+
+    /// Minute, 0 to 59.
+    #[getter]
+    fn minute(&self) -> i8 {
+        self.inner.civil.minute
+    }
+
+    /// Second with its fraction, 0 to below 60.
+    #[getter]
+    fn second(&self) -> f64 {
+        self.inner.civil.second
+    }
+
+    /// Local time minus UTC, where the text says offset or zone, else None. In an hour that clocks show twice it tells which is meant. [h]
+    #[getter]
+    fn utc_offset_h(&self) -> Option<f64> {
+        self.inner.utc_offset_s.map(|seconds| f64::from(seconds) / 3600.0)
+    }
+
+    /// IANA name of the zone that the text names, else None.
+    #[getter]
+    fn zone(&self) -> Option<&str> {
+        self.inner.zone.as_deref()
+    }
+
+    /// What had to be assumed, in a sentence, as ``CivilTime.notice``; without a zone in the text it is not known whether its clocks show the time.
+    #[getter]
+    fn notice(&self) -> Option<&str> {
+        self.inner.notice.as_deref()
+    }
+
+    fn __repr__(&self) -> String {
+        let time::TimeFields { civil, utc_offset_s, zone, .. } = &self.inner;
+        let time::Civil { year, month, day, hour, minute, second } = civil;
+        let offset = utc_offset_s.map_or_else(String::new, |seconds| format!(" {:+} h", f64::from(seconds) / 3600.0));
+        let zone = zone.as_ref().map_or_else(String::new, |zone| format!(" [{zone}]"));
+        format!("<TimeFields {year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}{offset}{zone}>")
+    }
+}
+
+/// Date, time of day, offset and zone that a text says, without knowing the place.
+///
+/// ISO 8601 and RFC 9557 as ``Sky`` reads them: "2005-06-21T13:00:00+02:00", "2005-06-21 13:00", "2005-06-21T13+02",
+/// "2005-06-21T13:00[Europe/Stockholm]", "2005-06-21T11:00Z[Europe/Stockholm]" (13:00 there), "2005-06-21" (its noon), "now". Raises
+/// :class:`InputError` for what cannot be read.
+///
+/// Parameters
+/// ----------
+/// text
+///     The time, at most 100 bytes.
+#[pyfunction]
+pub fn parse_time(text: &str) -> PyResult<TimeFields> {
+    Ok(TimeFields { inner: time::TimeFields::parse(text)? })
 }
 
 /// Places whose name, or another name, matches `text`: the best first. Up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
@@ -235,6 +332,8 @@ impl CivilTime {
 ///     What a person has typed so far.
 /// limit
 ///     How many places at most.
+///
+/// More than 200 bytes, 16 words or 6 commas find nothing.
 #[pyfunction]
 #[pyo3(signature = (text, limit = 10))]
 pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
@@ -242,7 +341,23 @@ pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
     py.detach(|| places::search(text, limit)).into_iter().map(|inner| Place { inner }).collect()
 }
 
-/// The place nearest to coordinates.
+/// Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stokholm" suggests Stockholm.
+///
+/// Up to two letters may be missing, wrong, too many or swapped, one in words of four letters or fewer. The nearest come first, then the largest; some 30 ms.
+///
+/// Parameters
+/// ----------
+/// text
+///     As for ``search``; more than 40 letters suggest nothing.
+/// limit
+///     How many places at most.
+#[pyfunction]
+#[pyo3(signature = (text, limit = 5))]
+pub fn suggest_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
+    py.detach(|| places::suggest(text, limit)).into_iter().map(|inner| Place { inner }).collect()
+}
+
+/// The town or observatory nearest to coordinates.
 ///
 /// Parameters
 /// ----------
@@ -257,7 +372,7 @@ pub fn nearest_place(latitude: f64, longitude: f64) -> PyResult<NearestPlace> {
 
 /// The place that `text` means: coordinates in any spelling, or the best match of a name, which the label of the result tells.
 ///
-/// Raises :class:`InputError` if it is neither.
+/// Raises :class:`InputError` if it is neither; the message has the nearest spellings.
 ///
 /// Parameters
 /// ----------
@@ -330,7 +445,7 @@ pub fn zone_of_place(latitude: f64, longitude: f64) -> PyResult<&'static str> {
 /// Parameters
 /// ----------
 /// time
-///     Date and time, ISO 8601: without offset it is local time.
+///     Date and time, ISO 8601: without offset it is local time; a date alone is its noon; "now".
 /// latitude
 ///     Geodetic latitude, -90 to 90. [degrees]
 /// longitude

@@ -131,6 +131,24 @@ fn what_is_wrong_is_named() {
 }
 
 #[test]
+fn texts_that_nobody_writes_are_refused_by_their_length() {
+    for text in [
+        "9".repeat(80_000),
+        "9 ".repeat(40_000),
+        "55,".repeat(30_000),
+        "@1".repeat(40_000),
+        "https://example.com/?q=".to_string() + &"1,".repeat(40_000),
+        "e\u{301}".repeat(30_000),
+        "1".repeat(201),
+    ] {
+        let message = message(&text);
+        assert!(message.contains("at most 200 bytes, or a link of at most 4096") && message.len() < 700, "{message}");
+    }
+    let long = "https://example.com/map?".to_string() + &"x=1&".repeat(500) + "lat=55.71&lon=13.19";
+    assert_eq!(parsed(&long), (55.71, 13.19));
+}
+
+#[test]
 fn styles_are_written_as_they_are_read() {
     let lund = Coordinates::new(55.71, 13.19).unwrap();
     assert_eq!(lund.to_string(), "55.71, 13.19");
