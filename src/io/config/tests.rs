@@ -132,21 +132,13 @@ fn any_probe() -> impl Strategy<Value = ProbeSettings> {
         select(vec![GroundView::On, GroundView::Off, GroundView::Mirrored]),
     );
     let colour = (
-        any::<bool>(),
+        any::<[bool; 2]>(),
         select(vec![Scale::Blender, Scale::Mitsuba, Scale::Luminance]),
         select(vec![ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz]),
         select(vec![Gamut::Desaturate, Gamut::Clip, Gamut::Keep]),
     );
-    (image, colour).prop_map(|((width, projection, rows, extent, ground), (sun_disc, scale, color_space, gamut))| ProbeSettings {
-        width,
-        projection,
-        rows,
-        extent,
-        ground,
-        sun_disc,
-        scale,
-        color_space,
-        gamut,
+    (image, colour).prop_map(|((width, projection, rows, extent, ground), ([sun_disc, moon_disc], scale, color_space, gamut))| {
+        ProbeSettings { width, projection, rows, extent, ground, sun_disc, moon_disc, scale, color_space, gamut }
     })
 }
 
