@@ -24,6 +24,8 @@ FIRST_YEAR, LAST_YEAR = 1000, 3000
 LONGEST_PATH = 1023
 # The preview's air is solved as coarsely as the library offers.
 PREVIEW_QUALITY = "draft"
+# Digits of a request's digest in the name of its file.
+DIGITS = 8
 # What the eye sees at best [magnitude].
 PREVIEW_STAR_LIMIT = 6.5
 
@@ -88,13 +90,13 @@ def width(settings):
 
 
 def as_typed(value):
-    """Return the number that the user typed: Blender keeps single precision, in which 0.1 is another and the poles lie beyond 90."""
-    return round(value, 5)
+    """Return the number that the user typed: Blender keeps single precision, seven digits, in which 0.1 is another."""
+    return float(f"{value:.7g}")
 
 
 def degrees(angle):
-    """Return an angle [radians] as the degrees that the user typed."""
-    return as_typed(math.degrees(angle))
+    """Return an angle [radians] as the degrees that the user typed; in single precision the poles lie beyond 90."""
+    return round(math.degrees(angle), 5)
 
 
 def check_finite(settings, *names):
@@ -255,8 +257,13 @@ def check_path(path):
 
 
 def probe_path(settings):
-    """Return the absolute path of the probe's file: in the folder, or in Blender's temporary one if it is to be packed."""
-    where, when = place(settings), time(settings)
+    """Return the absolute path of the probe's file: in the folder, or in Blender's temporary one if it is to be packed.
+
+    The name tells place, time and width, and ends in a digest of all that the picture depends on: a file of other settings, which a saved .blend
+    may show, is never written over.
+    """
+    request = sky_request(settings, settings.quality, width(settings))
+    where, when = request.place, request.time
     stamp = when[:16].replace("-", "").replace(":", "")
-    name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{width(settings)}.exr"
+    name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{request.width}_{request.digest[:DIGITS]}.exr"
     return check_path(os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name))
