@@ -57,6 +57,17 @@ impl Error {
     }
 }
 
+/// Letters of a text that a message shows at most.
+const SHOWN_LETTERS: usize = 80;
+
+/// `text` as messages show it: in quotes, its first 80 letters at most.
+pub(crate) fn quoted(text: &str) -> String {
+    match text.char_indices().nth(SHOWN_LETTERS) {
+        Some((end, _)) => format!("{:?}...", &text[..end]),
+        None => format!("{text:?}"),
+    }
+}
+
 /// Returns `value` if it is finite and within `[low, high]`, else an [`Error::Input`] that names
 /// `parameter`, the value and the range with its `unit` (empty for none).
 pub fn check_range(parameter: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<f64> {

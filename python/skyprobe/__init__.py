@@ -30,6 +30,7 @@ Errors
 ------
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
 ``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
+:class:`TimeWarning` (a ``UserWarning``) says what had to be assumed about a time.
 """
 
 from . import places
@@ -52,6 +53,7 @@ from ._core import (
     Sky,
     SolarEclipse,
     SunEvents,
+    TimeWarning,
     __version__,
 )
 
@@ -74,6 +76,7 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "TimeWarning",
     "__version__",
     "places",
 ]

@@ -66,6 +66,8 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "TimeFields",
+    "TimeWarning",
     "ToneReport",
     "__version__",
     "auto_exposure",
@@ -76,6 +78,7 @@ __all__ = [
     "locate_place",
     "nearest_place",
     "parse_coordinates",
+    "parse_time",
     "point_spread_function",
     "run_command_line",
     "search_places",
@@ -93,6 +96,9 @@ class DataError(RuntimeError):
 
 class Cancelled(Exception):
     """The progress callback returned False; nothing was left behind."""
+
+class TimeWarning(UserWarning):
+    """Something had to be assumed about a time: its clocks show it never or twice, it is a date alone, or it has a second 60. The message says which instant is taken."""
 
 @final
 class Phase:
@@ -653,7 +659,8 @@ class Sky:
     longitude
         East positive, -180 to 180. [degrees]
     time
-        ISO 8601 text, or an aware ``datetime``. A text without offset is local time in ``zone``.
+        ISO 8601 text, an aware ``datetime``, or a ``date``, which is its noon. A text without offset is local time in ``zone``; it may be a date alone
+        or "now". What has to be assumed (clocks show it never or twice, noon) is a :class:`TimeWarning`, and ``time_notice``.
     atmosphere
         The air.
     elevation_m
@@ -676,7 +683,7 @@ class Sky:
         *,
         latitude: float,
         longitude: float,
-        time: str | datetime.datetime,
+        time: str | datetime.datetime | datetime.date,
         atmosphere: Atmosphere,
         elevation_m: float = 0.0,
         zone: str | None = None,
@@ -728,6 +735,11 @@ class Sky:
     @property
     def time(self) -> datetime.datetime | None:
         """The time, with its offset."""
+
+    @property
+    def time_notice(self) -> str | None:
+        """What had to be assumed about the time, in a sentence: that clocks show it never or twice and which instant is taken, that a date alone is its
+        noon, that a second 60 is the one before; None for a time that says all."""
 
     @property
     def zone(self) -> str | None:
@@ -1181,6 +1193,51 @@ class CivilTime:
         """How often clocks show the local time that was given: "once"; "repeated" (clocks are set back: the first is taken); "skipped" (clocks are set
         forward: the time as far after the gap is taken)."""
 
+    @property
+    def notice(self) -> str | None:
+        """What had to be assumed, in a sentence: that clocks show the time never or twice and which instant is taken, that a date alone is its noon, that a
+        second 60 is the one before; None for a time that says all."""
+
+@final
+class TimeFields:
+    """What a text says of a time, for programs that keep date, time of day, offset and zone apart."""
+
+    @property
+    def year(self) -> int:
+        """Gregorian year, 1000 to 3000."""
+
+    @property
+    def month(self) -> int:
+        """Month, 1 to 12."""
+
+    @property
+    def day(self) -> int:
+        """Day of the month, 1 to 31."""
+
+    @property
+    def hour(self) -> int:
+        """Hour, 0 to 23, in the zone that the text names, at its offset, or local where it says neither; "now" is in UTC."""
+
+    @property
+    def minute(self) -> int:
+        """Minute, 0 to 59."""
+
+    @property
+    def second(self) -> float:
+        """Second with its fraction, 0 to below 60."""
+
+    @property
+    def utc_offset_h(self) -> float | None:
+        """Local time minus UTC, where the text says offset or zone, else None. In an hour that clocks show twice it tells which is meant. [h]"""
+
+    @property
+    def zone(self) -> str | None:
+        """IANA name of the zone that the text names, else None."""
+
+    @property
+    def notice(self) -> str | None:
+        """What had to be assumed, in a sentence, as ``CivilTime.notice``; without a zone in the text it is not known whether its clocks show the time."""
+
 def search_places(text: str, limit: int = 10) -> list[Place]:
     """Places whose name, or another name, matches `text`: the best first. Up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
 
@@ -1270,13 +1327,26 @@ def civil_time(time: str, latitude: float, longitude: float, zone: str | None = 
     Parameters
     ----------
     time
-        Date and time, ISO 8601: without offset it is local time.
+        Date and time, ISO 8601: without offset it is local time; a date alone is its noon; "now".
     latitude
         Geodetic latitude, -90 to 90. [degrees]
     longitude
         Longitude, -180 to 180. [degrees]
     zone
         IANA time zone instead of that of the place.
+    """
+
+def parse_time(text: str) -> TimeFields:
+    """Date, time of day, offset and zone that a text says, without knowing the place.
+
+    ISO 8601 and RFC 9557 as ``Sky`` reads them: "2005-06-21T13:00:00+02:00", "2005-06-21 13:00", "2005-06-21T13+02",
+    "2005-06-21T13:00[Europe/Stockholm]", "2005-06-21T11:00Z[Europe/Stockholm]" (13:00 there), "2005-06-21" (its noon), "now". Raises
+    :class:`InputError` for what cannot be read.
+
+    Parameters
+    ----------
+    text
+        The time, at most 100 bytes.
     """
 
 def run_command_line(arguments: Sequence[str]) -> int:

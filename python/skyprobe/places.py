@@ -18,7 +18,18 @@ Names, coordinates and elevations are those of GeoNames (geonames.org, CC BY 4.0
 heights is that of Mapzen: see data/README.md for the credits that are due.
 """
 
-from ._core import CivilTime, Location, NearestPlace, Place, civil_time, elevation_m, format_coordinates, parse_coordinates
+from ._core import (
+    CivilTime,
+    Location,
+    NearestPlace,
+    Place,
+    TimeFields,
+    civil_time,
+    elevation_m,
+    format_coordinates,
+    parse_coordinates,
+    parse_time,
+)
 from ._core import locate_place as locate
 from ._core import nearest_place as nearest
 from ._core import search_places as search
@@ -29,12 +40,14 @@ __all__ = [
     "Location",
     "NearestPlace",
     "Place",
+    "TimeFields",
     "civil_time",
     "elevation_m",
     "format_coordinates",
     "locate",
     "nearest",
     "parse_coordinates",
+    "parse_time",
     "search",
     "time_zone",
 ]

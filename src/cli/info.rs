@@ -5,7 +5,7 @@ mod text;
 
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
-use super::options::{ConfigOptions, PlaceOptions};
+use super::options::{ConfigOptions, PlaceOptions, tell_time};
 use super::{say, terminal};
 use crate::ephemeris::{Body, MoonPhase, RiseAndSet, SunEvents, Target, next_moon_phases, rise_and_set, sun_events};
 use crate::error::Result;
@@ -58,6 +58,7 @@ pub fn run(options: &Options) -> Result<()> {
     options.night.apply(&mut config.night)?;
     config.validate()?;
     if options.config.dump_config {
+        tell_time(&config);
         return say(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;

@@ -1,5 +1,6 @@
 //! Options that several commands share: where, when, under which air. Each overrides the value of the configuration.
 
+use super::complain;
 use crate::error::Result;
 use crate::io::Config;
 use crate::sky::{Atmosphere, Cache};
@@ -58,9 +59,10 @@ pub struct PlaceOptions {
     /// Height of the observer above the sea, -500 to 60000 [m]. Default: that of --place, else 0.
     #[arg(long, value_name = "M", help_heading = PLACE)]
     elevation: Option<f64>,
-    /// Date and time (ISO 8601): 2005-06-21T13:00:00+02:00, 2005-06-21T11:00Z, or 2005-06-21T13:00.
+    /// Date and time (ISO 8601): 2005-06-21T13:00:00+02:00, 2005-06-21T11:00Z, 2005-06-21T13:00, "2005-06-21 13:00"; a date alone is its noon; now.
     ///
-    /// Without an offset it is local time in the zone of the place, daylight saving included (or in --zone).
+    /// Without an offset it is local time in the zone of the place, daylight saving included (or in --zone). What has to be assumed (clocks show it
+    /// never or twice, noon) is told.
     #[arg(long, value_name = "TIME", help_heading = PLACE)]
     time: Option<String>,
     /// IANA time zone, such as Europe/Stockholm. Default: found from the place, offline.
@@ -102,6 +104,13 @@ impl PlaceOptions {
         if let Some(model) = &self.sun_model {
             config.sun_model = model.parse()?;
         }
-        Ok(())
+        config.settle_now()
+    }
+}
+
+/// Says what had to be assumed about the time.
+pub fn tell_time(config: &Config) {
+    if let Some(notice) = config.time_notice() {
+        complain(&format!("note: time: {notice}"));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
-use super::options::{ConfigOptions, PlaceOptions};
+use super::options::{ConfigOptions, PlaceOptions, tell_time};
 use super::{say, terminal};
 use crate::error::{Error, Result, check_range};
 use crate::io::{Config, Format, SampleMap, check_output, describe, json, render_to_files};
@@ -260,6 +260,7 @@ const SAMPLE_MAP_WIDTH: usize = 1024;
 /// Renders, and writes the files.
 pub fn run(options: &Options) -> Result<()> {
     let config = options.config()?;
+    tell_time(&config);
     if options.config.dump_config {
         return say(&config.to_json());
     }

@@ -197,6 +197,32 @@ impl Config {
         Ok(())
     }
 
+    /// Writes the present instant where the time is `now`, in the zone that is named, else that of the place: so that it stays the same from here on.
+    ///
+    /// # Errors
+    /// As [`Time::parse`].
+    pub fn settle_now(&mut self) -> Result<()> {
+        let Some(text) = self.time.as_deref().filter(|text| text.trim().eq_ignore_ascii_case("now")) else { return Ok(()) };
+        let now = Time::parse(text, self.zone_choice())?;
+        let zone = now.zone_name().map_or_else(String::new, |zone| format!("[{zone}]"));
+        self.time = Some(format!("{now}{zone}"));
+        Ok(())
+    }
+
+    /// What had to be assumed about the time, as [`Time::notice`]; `None` too where the time cannot be read.
+    pub fn time_notice(&self) -> Option<String> {
+        let time = Time::parse(self.time.as_deref()?, self.zone_choice()).ok()?;
+        time.notice().map(str::to_string)
+    }
+
+    fn zone_choice(&self) -> ZoneChoice<'_> {
+        match (&self.zone, self.latitude, self.longitude) {
+            (Some(zone), ..) => ZoneChoice::Named(zone),
+            (None, Some(latitude_deg), Some(longitude_deg)) => ZoneChoice::OfPlace { latitude_deg, longitude_deg },
+            _ => ZoneChoice::InText,
+        }
+    }
+
     /// The configuration with every value written out, as indented JSON.
     pub fn to_json(&self) -> String {
         format!("{:#}", self.to_value())

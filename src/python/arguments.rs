@@ -42,14 +42,18 @@ pub fn probe_settings(width: i64, layout: [&str; 4], discs: [bool; 2], colour: [
     Ok(settings)
 }
 
-/// A time as text: a `str` as it is, an aware `datetime` in ISO 8601.
+/// A time as text: a `str` as it is, an aware `datetime` or a `date` in ISO 8601.
 pub fn time_text(time: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(text) = time.cast::<PyString>() {
         return Ok(text.to_string());
     }
     let wrong = |allowed: &str| InputError::new_err(format!("time = {time}: must be {allowed}"));
-    if !time.is_instance(&time.py().import("datetime")?.getattr("datetime")?)? {
-        return Err(wrong("a text or a datetime.datetime"));
+    let datetime = time.py().import("datetime")?;
+    if !time.is_instance(&datetime.getattr("datetime")?)? {
+        if time.is_instance(&datetime.getattr("date")?)? {
+            return time.call_method0("isoformat")?.extract();
+        }
+        return Err(wrong("a text, a datetime.datetime or a datetime.date"));
     }
     if time.call_method0("utcoffset")?.is_none() {
         return Err(wrong("a datetime with a time zone (tzinfo); a local time of the place is given as text"));

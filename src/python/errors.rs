@@ -1,7 +1,7 @@
 //! The crate's errors as Python exceptions.
 
 use crate::error::Error;
-use pyo3::exceptions::{PyException, PyOSError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyException, PyOSError, PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::{PyErr, create_exception};
 
 create_exception!(
@@ -12,6 +12,12 @@ create_exception!(
 );
 create_exception!(skyprobe, DataError, PyRuntimeError, "A table or file whose content cannot be used.");
 create_exception!(skyprobe, Cancelled, PyException, "The progress callback returned False; nothing was left behind.");
+create_exception!(
+    skyprobe,
+    TimeWarning,
+    PyUserWarning,
+    "Something had to be assumed about a time: its clocks show it never or twice, it is a date alone, or it has a second 60. The message says which instant is taken."
+);
 
 impl From<Error> for PyErr {
     fn from(error: Error) -> Self {

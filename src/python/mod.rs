@@ -28,6 +28,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("InputError", py.get_type::<errors::InputError>())?;
     module.add("DataError", py.get_type::<errors::DataError>())?;
     module.add("Cancelled", py.get_type::<errors::Cancelled>())?;
+    module.add("TimeWarning", py.get_type::<errors::TimeWarning>())?;
     module.add_class::<air::Atmosphere>()?;
     module.add_class::<air::Component>()?;
     module.add_class::<air::Phase>()?;
@@ -47,6 +48,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<places::NearestPlace>()?;
     module.add_class::<places::Location>()?;
     module.add_class::<places::CivilTime>()?;
+    module.add_class::<places::TimeFields>()?;
     module.add_function(wrap_pyfunction!(places::search_places, module)?)?;
     module.add_function(wrap_pyfunction!(places::nearest_place, module)?)?;
     module.add_function(wrap_pyfunction!(places::locate_place, module)?)?;
@@ -55,6 +57,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(places::elevation_m, module)?)?;
     module.add_function(wrap_pyfunction!(places::zone_of_place, module)?)?;
     module.add_function(wrap_pyfunction!(places::civil_time, module)?)?;
+    module.add_function(wrap_pyfunction!(places::parse_time, module)?)?;
     module.add_class::<post::Report>()?;
     module.add_function(wrap_pyfunction!(post::glare, module)?)?;
     module.add_function(wrap_pyfunction!(post::point_spread_function, module)?)?;

@@ -218,10 +218,103 @@ impl CivilTime {
         }
     }
 
+    /// What had to be assumed, in a sentence: that clocks show the time never or twice and which instant is taken, that a date alone is its noon, that a
+    /// second 60 is the one before; None for a time that says all.
+    #[getter]
+    fn notice(&self) -> Option<&str> {
+        self.inner.time.notice()
+    }
+
     fn __repr__(&self) -> String {
         let time::CivilTime { time, abbreviation, .. } = &self.inner;
         format!("<CivilTime {time} {abbreviation}>")
     }
+}
+
+/// What a text says of a time, for programs that keep date, time of day, offset and zone apart.
+#[pyclass(frozen, module = "skyprobe.places")]
+pub struct TimeFields {
+    inner: time::TimeFields,
+}
+
+#[pymethods]
+impl TimeFields {
+    /// Gregorian year, 1000 to 3000.
+    #[getter]
+    fn year(&self) -> i16 {
+        self.inner.civil.year
+    }
+
+    /// Month, 1 to 12.
+    #[getter]
+    fn month(&self) -> i8 {
+        self.inner.civil.month
+    }
+
+    /// Day of the month, 1 to 31.
+    #[getter]
+    fn day(&self) -> i8 {
+        self.inner.civil.day
+    }
+
+    /// Hour, 0 to 23, in the zone that the text names, at its offset, or local where it says neither; "now" is in UTC.
+    #[getter]
+    fn hour(&self) -> i8 {
+        self.inner.civil.hour
+    }
+
+    /// Minute, 0 to 59.
+    #[getter]
+    fn minute(&self) -> i8 {
+        self.inner.civil.minute
+    }
+
+    /// Second with its fraction, 0 to below 60.
+    #[getter]
+    fn second(&self) -> f64 {
+        self.inner.civil.second
+    }
+
+    /// Local time minus UTC, where the text says offset or zone, else None. In an hour that clocks show twice it tells which is meant. [h]
+    #[getter]
+    fn utc_offset_h(&self) -> Option<f64> {
+        self.inner.utc_offset_s.map(|seconds| f64::from(seconds) / 3600.0)
+    }
+
+    /// IANA name of the zone that the text names, else None.
+    #[getter]
+    fn zone(&self) -> Option<&str> {
+        self.inner.zone.as_deref()
+    }
+
+    /// What had to be assumed, in a sentence, as ``CivilTime.notice``; without a zone in the text it is not known whether its clocks show the time.
+    #[getter]
+    fn notice(&self) -> Option<&str> {
+        self.inner.notice.as_deref()
+    }
+
+    fn __repr__(&self) -> String {
+        let time::TimeFields { civil, utc_offset_s, zone, .. } = &self.inner;
+        let time::Civil { year, month, day, hour, minute, second } = civil;
+        let offset = utc_offset_s.map_or_else(String::new, |seconds| format!(" {:+} h", f64::from(seconds) / 3600.0));
+        let zone = zone.as_ref().map_or_else(String::new, |zone| format!(" [{zone}]"));
+        format!("<TimeFields {year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}{offset}{zone}>")
+    }
+}
+
+/// Date, time of day, offset and zone that a text says, without knowing the place.
+///
+/// ISO 8601 and RFC 9557 as ``Sky`` reads them: "2005-06-21T13:00:00+02:00", "2005-06-21 13:00", "2005-06-21T13+02",
+/// "2005-06-21T13:00[Europe/Stockholm]", "2005-06-21T11:00Z[Europe/Stockholm]" (13:00 there), "2005-06-21" (its noon), "now". Raises
+/// :class:`InputError` for what cannot be read.
+///
+/// Parameters
+/// ----------
+/// text
+///     The time, at most 100 bytes.
+#[pyfunction]
+pub fn parse_time(text: &str) -> PyResult<TimeFields> {
+    Ok(TimeFields { inner: time::TimeFields::parse(text)? })
 }
 
 /// Places whose name, or another name, matches `text`: the best first. Up to 3 ms, 5 ms for a single letter; the first time some 0.1 s.
@@ -330,7 +423,7 @@ pub fn zone_of_place(latitude: f64, longitude: f64) -> PyResult<&'static str> {
 /// Parameters
 /// ----------
 /// time
-///     Date and time, ISO 8601: without offset it is local time.
+///     Date and time, ISO 8601: without offset it is local time; a date alone is its noon; "now".
 /// latitude
 ///     Geodetic latitude, -90 to 90. [degrees]
 /// longitude

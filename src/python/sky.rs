@@ -4,7 +4,7 @@ use super::air::Atmosphere;
 use super::arguments::{layer_scales, probe_settings, time_text, unit_vectors};
 use super::arrays;
 use super::bodies::{Body, LunarEclipse, Moon, RiseAndSet, SolarEclipse};
-use super::errors::InputError;
+use super::errors::{InputError, TimeWarning};
 use super::filter::PolarisingFilter;
 use super::night::Night;
 use super::probe::{Probe, read_half};
@@ -20,6 +20,7 @@ use crate::time::Time;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
+use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -32,7 +33,8 @@ use std::sync::Arc;
 /// longitude
 ///     East positive, -180 to 180. [degrees]
 /// time
-///     ISO 8601 text, or an aware ``datetime``. A text without offset is local time in ``zone``.
+///     ISO 8601 text, an aware ``datetime``, or a ``date``, which is its noon. A text without offset is local time in ``zone``; it may be a date alone
+///     or "now". What has to be assumed (clocks show it never or twice, noon) is a :class:`TimeWarning`, and ``time_notice``.
 /// atmosphere
 ///     The air.
 /// elevation_m
@@ -63,6 +65,7 @@ impl Sky {
         model = "scattering", night = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
+        py: Python<'_>,
         latitude: f64,
         longitude: f64,
         time: &Bound<'_, PyAny>,
@@ -77,6 +80,10 @@ impl Sky {
         let time = time_at(&place, &time_text(time)?, zone)?;
         let (sun_model, model) = (sun_model.parse()?, model.parse()?);
         let night = night.map(|night| night.inner).unwrap_or_default();
+        if let Some(notice) = time.notice() {
+            let message = CString::new(format!("time: {notice}"))?;
+            PyErr::warn(py, &py.get_type::<TimeWarning>(), &message, 1)?;
+        }
         let inner = sky::Sky::new(place, time, sun_model, atmosphere.get().inner.clone())?.with_night(night)?;
         Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model, model })
     }
@@ -137,6 +144,13 @@ impl Sky {
     #[getter]
     fn time<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.inner.time().map(|time| datetime(py, time)).transpose()
+    }
+
+    /// What had to be assumed about the time, in a sentence: that clocks show it never or twice and which instant is taken, that a date alone is its
+    /// noon, that a second 60 is the one before; None for a time that says all.
+    #[getter]
+    fn time_notice(&self) -> Option<&str> {
+        self.inner.time().and_then(Time::notice)
     }
 
     /// IANA zone of the time; None for a fixed offset.

@@ -8,7 +8,7 @@ use crate::error::Result;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CivilTime {
-    /// The instant in its zone: [`Time::utc_offset_s`] and [`Time::zone_name`] say which.
+    /// The instant in its zone: [`Time::utc_offset_s`] and [`Time::zone_name`] say which, [`Time::notice`] what had to be assumed.
     pub time: Time,
     /// What the offset is called, such as "CEST", or "+03" where it has no name.
     pub abbreviation: String,
@@ -24,10 +24,11 @@ impl CivilTime {
     /// # Errors
     /// As [`Time::parse`].
     pub fn parse(text: &str, zone: ZoneChoice) -> Result<Self> {
-        let (zoned, occurrence) = parse::parse(text, zone)?;
-        let info = zoned.time_zone().to_offset_info(zoned.timestamp());
+        let reading = parse::parse(text, zone)?;
+        let info = reading.zoned.time_zone().to_offset_info(reading.zoned.timestamp());
         let (abbreviation, daylight_saving) = (info.abbreviation().to_string(), info.dst().is_dst());
-        Ok(Self { time: Time::from_civil(zoned, text)?, abbreviation, daylight_saving, occurrence })
+        let occurrence = reading.occurrence;
+        Ok(Self { time: Time::from_reading(reading), abbreviation, daylight_saving, occurrence })
     }
 }
 

@@ -6,23 +6,30 @@
 //! - Inside, physics asks for TT (positions of bodies) and UT1 (rotation of the Earth). TT - UT1 = delta T ([`delta_t_s`]).
 //! - From 1972 to the end of the delta T table (January 2027) TT - UTC = 32.184 s + leap seconds, and UT1 = TT - delta T.
 //!   After it UT1 - UTC is taken as 0: leap seconds to come, or whatever replaces them, are unknown.
-//! - A second 60 reads as the second 59 before it.
+//! - A second 60 reads as the second 59 before it, which is told.
+//! - Zones have the whole history that the IANA database knows of them, also before 1970.
+//! - Whatever had to be assumed about a text (a local time that clocks show never or twice, a date without time of day) goes with the time as [`Time::notice`].
 
 mod civil_time;
 mod delta_t;
 mod julian_date;
 mod leap_seconds;
+mod notice;
 mod parse;
 mod scales;
+mod text;
 mod zone_lookup;
+mod zones;
 
 pub use civil_time::CivilTime;
 pub use delta_t::delta_t_s;
 pub use julian_date::JulianDate;
 pub use parse::{Occurrence, ZoneChoice};
+pub use text::TimeFields;
 pub use zone_lookup::zone_of_place;
 
 use crate::error::{Error, Result, check_range};
+use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp, Zoned};
 use std::fmt;
@@ -31,12 +38,23 @@ use std::fmt;
 pub const YEARS: std::ops::RangeInclusive<i16> = 1000..=3000;
 
 /// An instant, in the scales that physics needs and as the clock on the wall shows it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Time {
     civil: Zoned,
     utc: JulianDate,
     tt: JulianDate,
     ut1: JulianDate,
+    notice: Option<Box<str>>,
+}
+
+/// Whether instant and zone are the same, however they were written.
+impl PartialEq for Time {
+    fn eq(&self, other: &Self) -> bool {
+        self.civil == other.civil
+            && self.civil.offset() == other.civil.offset()
+            && self.zone_name() == other.zone_name()
+            && (self.utc, self.tt, self.ut1) == (other.utc, other.tt, other.ut1)
+    }
 }
 
 /// What calendar and clock on the wall show.
@@ -56,20 +74,43 @@ pub struct Civil {
     pub second: f64,
 }
 
+impl Civil {
+    fn of(local: DateTime) -> Self {
+        Self {
+            year: local.year(),
+            month: local.month(),
+            day: local.day(),
+            hour: local.hour(),
+            minute: local.minute(),
+            second: f64::from(local.second()) + f64::from(local.subsec_nanosecond()) * 1e-9,
+        }
+    }
+}
+
 impl Time {
     /// Reads a date with a time of day: `2005-06-21T13:00:00+02:00`, `2005-06-21T11:00:00Z`, `2005-06-21T13:00:00[Europe/Stockholm]`
-    /// (ISO 8601, RFC 9557), or without offset and zone where `zone` says which one to use. Seconds may be left out, and a
-    /// space may stand for the T.
+    /// (ISO 8601, RFC 9557), or without offset and zone where `zone` says which one to use. Seconds and minutes may be left out (`T13`, `+02`), and
+    /// a space may stand for the T. A date alone is its noon; `now` is the instant at which it is read, to the second.
     ///
     /// A local time that occurs twice (clocks set back) is the first of the two; one that does not occur (clocks set forward)
-    /// is taken as far after the gap as it lies in it: 02:30 is 03:30. An offset in the text picks the other one, and where
-    /// text has both offset and zone they must agree.
+    /// is taken as far after the gap as it lies in it: 02:30 is 03:30. [`Time::notice`] tells so. An offset in the text picks the other one, and
+    /// where text has both offset and zone they must agree; after Z the rest is UTC, and a zone in brackets only says which clock to show.
     ///
     /// # Errors
-    /// [`Error::Input`] for `time` if the text cannot be read, names no known zone, or lies outside the years 1000 to 3000;
+    /// [`Error::Input`] for `time` if the text cannot be read, has more than 100 bytes, names no known zone, or lies outside the years 1000 to 3000;
     /// for `zone` if [`ZoneChoice::Named`] is not in the IANA time zone database.
     pub fn parse(text: &str, zone: ZoneChoice) -> Result<Self> {
-        parse::parse(text, zone).and_then(|(civil, _)| Self::from_civil(civil, text))
+        parse::parse(text, zone).map(Self::from_reading)
+    }
+
+    fn from_reading(reading: parse::Reading) -> Self {
+        Self { notice: reading.notice.map(String::into_boxed_str), ..Self::from_zoned(reading.zoned) }
+    }
+
+    /// What had to be assumed to read this time, in a sentence: that a local time does not exist or exists twice in its zone, and which instant is
+    /// taken; that a date alone is its noon; that a second 60 is the one before. `None` for a time that says all, and for one computed from others.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
     }
 
     /// The instant with these Julian dates in TT and in UT1, civil time in UTC: for comparisons with tables that state both.
@@ -84,7 +125,7 @@ impl Time {
         let utc = scales::utc_from(tt, ut1);
         let timestamp = Timestamp::from_nanosecond(utc.unix_nanoseconds())
             .map_err(|_| Error::input("jd_tt", jd_tt, "a Julian date of the years 1000 to 3000"))?;
-        Ok(Self { civil: timestamp.to_zoned(TimeZone::UTC), utc, tt, ut1 })
+        Ok(Self { civil: timestamp.to_zoned(TimeZone::UTC), utc, tt, ut1, notice: None })
     }
 
     /// The instant so many seconds after 1970-01-01T00:00:00 UTC by the civil clock, which counts no leap seconds; civil time in UTC.
@@ -104,9 +145,13 @@ impl Time {
         if !YEARS.contains(&civil.year()) {
             return Err(Error::input("time", format!("{given:?}"), "within the years 1000 to 3000"));
         }
+        Ok(Self::from_zoned(civil))
+    }
+
+    fn from_zoned(civil: Zoned) -> Self {
         let utc = JulianDate::from_unix_nanoseconds(civil.timestamp().as_nanosecond());
         let (tt, ut1) = scales::tt_ut1_from(utc);
-        Ok(Self { civil, utc, tt, ut1 })
+        Self { civil, utc, tt, ut1, notice: None }
     }
 
     /// The instant `seconds` later (earlier if negative) by the civil clock, which counts no leap seconds; same zone.
@@ -172,15 +217,7 @@ impl Time {
 
     /// What calendar and clock show in the zone of this time.
     pub fn civil(&self) -> Civil {
-        let c = &self.civil;
-        Civil {
-            year: c.year(),
-            month: c.month(),
-            day: c.day(),
-            hour: c.hour(),
-            minute: c.minute(),
-            second: f64::from(c.second()) + f64::from(c.subsec_nanosecond()) * 1e-9,
-        }
+        Civil::of(self.civil.datetime())
     }
 
     /// Local civil time minus UTC [s], positive east of Greenwich.
@@ -202,11 +239,7 @@ impl Time {
 impl fmt::Display for Time {
     /// ISO 8601 with offset, such as `2005-06-21T13:00:00+02:00`; [`Time::parse`] reads it back to the same instant.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let offset = self.utc_offset_s();
-        let (sign, size) = (if offset < 0 { '-' } else { '+' }, offset.abs());
-        write!(f, "{}{sign}{:02}:{:02}", self.civil.datetime(), size / 3600, size / 60 % 60)?;
-        // Local mean time, kept before zones were introduced, has offsets with seconds.
-        if size % 60 != 0 { write!(f, ":{:02}", size % 60) } else { Ok(()) }
+        write!(f, "{}{}", self.civil.datetime(), notice::offset(self.civil.offset()))
     }
 }
 

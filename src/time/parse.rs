@@ -1,13 +1,12 @@
-//! Reading civil time: ISO 8601 with offset, RFC 9557 with a zone, or a local time whose zone is told apart.
+//! From a text to an instant in its zone, and how often the clocks of that zone show it.
 
-use crate::error::{Error, Result};
-use jiff::Zoned;
+use super::text::{Dated, Text, WrittenOffset, read, unreadable};
+use super::zones::zone_named;
+use super::{YEARS, notice};
+use crate::error::{Error, Result, quoted};
 use jiff::civil::DateTime;
-use jiff::fmt::temporal::{DateTimeParser, Pieces};
-use jiff::tz::{AmbiguousOffset, TimeZone};
-
-const FORM: &str =
-    "a date and time such as 2005-06-21T13:00:00+02:00, 2005-06-21T11:00:00Z or 2005-06-21T13:00:00[Europe/Stockholm]";
+use jiff::tz::{AmbiguousOffset, Offset, OffsetConflict, TimeZone};
+use jiff::{Unit, Zoned};
 
 /// Which zone a time without offset is in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,66 +36,86 @@ pub enum Occurrence {
     Skipped,
 }
 
-pub(super) fn parse(text: &str, zone: ZoneChoice) -> Result<(Zoned, Occurrence)> {
-    let unreadable = || Error::input("time", format!("{text:?}"), FORM);
-    let pieces = Pieces::parse(text.trim()).map_err(|_| unreadable())?;
-    let local = DateTime::from_parts(pieces.date(), pieces.time().ok_or_else(unreadable)?);
-    let in_text = if pieces.time_zone_annotation().is_some() {
-        let zoned = parse_annotated(text, &pieces)?;
-        let occurrence = match pieces.to_numeric_offset() {
-            Some(_) => Occurrence::Once,
-            None => occurrence(local, zoned.time_zone()),
-        };
-        Some((zoned, occurrence))
-    } else if let Some(offset) = pieces.to_numeric_offset() {
-        let zone = if offset.is_zero() { TimeZone::UTC } else { TimeZone::fixed(offset) };
-        Some((offset.to_timestamp(local).map_err(|_| unreadable())?.to_zoned(zone), Occurrence::Once))
-    } else {
-        None
+/// A text that was read.
+pub(super) struct Reading {
+    pub zoned: Zoned,
+    pub occurrence: Occurrence,
+    /// What had to be assumed, in words.
+    pub notice: Option<String>,
+}
+
+pub(super) fn parse(text: &str, zone: ZoneChoice) -> Result<Reading> {
+    let reading = match read(text)? {
+        Text::Now => Reading::now(match zone {
+            ZoneChoice::InText => TimeZone::UTC,
+            ZoneChoice::Named(name) => zone_named(name)?,
+            ZoneChoice::OfPlace { latitude_deg, longitude_deg } => zone_of_place(text, latitude_deg, longitude_deg)?,
+        }),
+        Text::Dated(dated) => at(text, dated, zone)?,
+    };
+    if YEARS.contains(&reading.zoned.year()) {
+        return Ok(reading);
+    }
+    Err(Error::input("time", quoted(text), "within the years 1000 to 3000"))
+}
+
+fn at(text: &str, dated: Dated, zone: ZoneChoice) -> Result<Reading> {
+    let Dated { local, offset, zone: written_zone, notice } = dated;
+    let once = |zoned: Zoned| Reading { zoned, occurrence: Occurrence::Once, notice: notice.clone() };
+    let in_text = match (offset, written_zone) {
+        (WrittenOffset::Nothing, None) => None,
+        (WrittenOffset::Nothing, Some(zone)) => Some(at_wall_clock(text, local, zone, notice.clone())?),
+        (WrittenOffset::Zulu, zone) => {
+            let utc = Offset::UTC.to_timestamp(local).map_err(|_| unreadable(text))?;
+            Some(once(utc.to_zoned(zone.unwrap_or(TimeZone::UTC))))
+        }
+        (WrittenOffset::Hours(offset), None) => {
+            let zone = if offset.is_zero() { TimeZone::UTC } else { TimeZone::fixed(offset) };
+            Some(once(offset.to_timestamp(local).map_err(|_| unreadable(text))?.to_zoned(zone)))
+        }
+        (WrittenOffset::Hours(offset), Some(zone)) => Some(once(agreed(text, local, offset, zone)?)),
     };
     match (in_text, zone) {
-        (Some((zoned, occurrence)), ZoneChoice::Named(name)) => Ok((zoned.with_time_zone(zone_named(name)?), occurrence)),
-        (Some(found), _) => Ok(found),
+        (Some(reading), ZoneChoice::Named(name)) => {
+            let zoned = reading.zoned.with_time_zone(zone_named(name)?);
+            Ok(Reading { zoned, ..reading })
+        }
+        (Some(reading), _) => Ok(reading),
         (None, ZoneChoice::InText) => Err(Error::input(
             "time",
-            format!("{text:?}"),
+            quoted(text),
             "given with an offset (+02:00, Z) or a zone ([Europe/Stockholm]), or with the parameter zone",
         )),
-        (None, ZoneChoice::Named(name)) => at_wall_clock(local, zone_named(name)?).ok_or_else(unreadable),
+        (None, ZoneChoice::Named(name)) => at_wall_clock(text, local, zone_named(name)?, notice),
         (None, ZoneChoice::OfPlace { latitude_deg, longitude_deg }) => {
-            at_wall_clock(local, zone_of_place(text, latitude_deg, longitude_deg)?).ok_or_else(unreadable)
+            at_wall_clock(text, local, zone_of_place(text, latitude_deg, longitude_deg)?, notice)
         }
     }
 }
 
-fn parse_annotated(text: &str, pieces: &Pieces) -> Result<Zoned> {
-    let fail = |allowed: &str| Error::input("time", format!("{text:?}"), allowed);
-    if pieces.to_time_zone().is_err() {
-        return Err(fail("given with a zone of the IANA time zone database, such as [Europe/Stockholm]"));
-    }
-    DateTimeParser::new()
-        .parse_zoned(text.trim())
-        .map_err(|_| fail("given with an offset that its zone has at that time, or without one"))
-}
-
-fn zone_named(name: &str) -> Result<TimeZone> {
-    TimeZone::get(name).map_err(|_| {
-        Error::input("zone", format!("{name:?}"), "a name of the IANA time zone database, such as Europe/Stockholm or UTC")
-    })
+/// The instant at which both `offset` and `zone` show `local`.
+fn agreed(text: &str, local: DateTime, offset: Offset, zone: TimeZone) -> Result<Zoned> {
+    // Texts that know no seconds in offsets round those of local mean time to minutes.
+    let is_same = |written: Offset, kept: Offset| {
+        let is_rounded = written.seconds() % 60 == 0 && kept.seconds() % 60 != 0;
+        written == kept || is_rounded && kept.round(Unit::Minute).is_ok_and(|kept| kept == written)
+    };
+    let resolved = OffsetConflict::Reject.resolve_with(local, offset, zone, is_same).and_then(|found| found.unambiguous());
+    resolved
+        .map_err(|_| Error::input("time", quoted(text), "given with an offset that its zone has at that time, or without one"))
 }
 
 /// The first of two, or as far after a gap as in it: the rule of RFC 5545.
-fn at_wall_clock(local: DateTime, zone: TimeZone) -> Option<(Zoned, Occurrence)> {
-    let occurrence = occurrence(local, &zone);
-    Some((zone.into_ambiguous_zoned(local).compatible().ok()?, occurrence))
-}
-
-fn occurrence(local: DateTime, zone: &TimeZone) -> Occurrence {
-    match zone.to_ambiguous_timestamp(local).offset() {
+fn at_wall_clock(text: &str, local: DateTime, zone: TimeZone, assumed: Option<String>) -> Result<Reading> {
+    let occurrence = match zone.to_ambiguous_timestamp(local).offset() {
         AmbiguousOffset::Unambiguous { .. } => Occurrence::Once,
         AmbiguousOffset::Fold { .. } => Occurrence::Repeated,
         AmbiguousOffset::Gap { .. } => Occurrence::Skipped,
-    }
+    };
+    let zoned = zone.into_ambiguous_zoned(local).compatible().map_err(|_| unreadable(text))?;
+    let parts = [assumed, notice::of(local, &zoned, occurrence)];
+    let notice = parts.into_iter().flatten().reduce(|one, other| format!("{one}; {other}"));
+    Ok(Reading { zoned, occurrence, notice })
 }
 
 fn zone_of_place(text: &str, latitude_deg: f64, longitude_deg: f64) -> Result<TimeZone> {
@@ -105,7 +124,7 @@ fn zone_of_place(text: &str, latitude_deg: f64, longitude_deg: f64) -> Result<Ti
     } else {
         Err(Error::input(
             "time",
-            format!("{text:?}"),
+            quoted(text),
             "given with an offset, a zone in brackets or the parameter zone: this build does not know the zones of places",
         ))
     }

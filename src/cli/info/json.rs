@@ -25,6 +25,7 @@ impl Report<'_> {
                 report["place"]["label"] = json!(label);
             }
             report["time"] = json!(time.to_string());
+            report["time_notice"] = json!(time.notice());
             report["zone"] = json!(time.zone_name());
             report["zone_source"] = json!(zone_source(self.config, time));
         }

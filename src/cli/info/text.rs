@@ -55,6 +55,9 @@ impl Report<'_> {
             ),
         );
         lines.add("time", time.to_string());
+        if let Some(notice) = time.notice() {
+            lines.add("", notice);
+        }
         lines.add("zone", format!("{} ({})", time.zone_name().unwrap_or("fixed offset"), zone_source(self.config, time)));
     }
 
