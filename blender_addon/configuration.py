@@ -10,9 +10,11 @@ import math
 
 from skyprobe import places
 
-from . import choices, values
-from .configuration_keys import READERS, Reading, number
+from . import values
+from .configuration_keys import READERS, Reading, checked_number
 
+# Letters of a time without its offset.
+LOCAL = len("2025-06-21T13:00:00")
 # Keys of a configuration that a section of the panel writes.
 SECTIONS = ("place", "time", "air", "night", "filter", "probe")
 
@@ -43,17 +45,14 @@ def from_settings(settings, sections=SECTIONS):
 def _time(settings):
     """Return the keys `time` and, for a zone by its name, `zone`, with the time offset in them."""
     zone = {"zone": values.zone_name(settings)} if settings.zone_mode == "NAME" else {}
-    if settings.time_offset_h == 0.0:
-        text = values.time(settings)
-        return {"time": text.partition("[")[0], **zone}
-    # The clock after so many hours, in the same zone.
-    shown = values.civil_time(settings).time.astimezone(values.start(settings).time.tzinfo)
-    exact = shown.isoformat(timespec="seconds")
-    bare = shown.replace(tzinfo=None).isoformat(timespec="seconds")
-    # A clock that is set back shows an hour twice, and the offset says which is meant.
-    if settings.zone_mode != "OFFSET" and places.civil_time(bare, **values.coordinates(settings), **zone).time == shown:
-        return {"time": bare, **zone}
-    return {"time": exact, **zone}
+    place = values.coordinates(settings)
+    text = values.time(settings).partition("[")[0]
+    if settings.time_offset_h == 0.0 or settings.zone_mode == "OFFSET":
+        return {"time": text, **zone}
+    # Clocks that are set back show an hour twice, and only the offset says which is meant.
+    local = text[:LOCAL]
+    is_plain = places.civil_time(local, **place, **zone).time == places.civil_time(text, **place).time
+    return {"time": local if is_plain else text, **zone}
 
 
 def to_settings(content, settings):
@@ -84,7 +83,7 @@ def _check(changes, settings):
             if value not in allowed:
                 raise ValueError(f"{name} = {value!r}: must be one of {', '.join(allowed)}")
         elif kind.type in {"INT", "FLOAT"}:
-            number(name, value)
+            checked_number(name, value)
             if kind.type == "INT" and value != int(value):
                 raise ValueError(f"{name} = {value!r}: must be a whole number")
             # Blender keeps single precision.

@@ -35,6 +35,8 @@ class Reading:
     def end(self, content):
         """Add what follows from several keys of the configuration `content` together."""
         changes = self.changes
+        if content.get("place") is not None and any(content.get(key) is not None for key in ("latitude", "longitude", "sun")):
+            raise ValueError(f"place = {content['place']!r}: must be left out where latitude and longitude are given")
         if {"latitude", "longitude"} & changes.keys():
             changes.setdefault("elevation_m", 0.0)
         if WHOLE <= content.keys():
@@ -48,25 +50,22 @@ class Reading:
 
     def _end_time(self):
         # The same reader as the command line's.
+        said = places.parse_time(self.time)
         place = values.coordinates(self._settings)
         place.update({name: math.degrees(self.changes[name]) for name in place if name in self.changes})
-        given = {"zone": self.zone} if self.zone is not None else {}
-        civil = places.civil_time(self.time, **place, **given)
-        moment = civil.time
-        name = self.zone or (civil.zone if "[" in self.time else None)
-        is_instant = _is_instant(self.time, place)
-        if name is None and is_instant:
-            self._set_offset(moment)
+        civil = places.civil_time(self.time, **place, **({} if self.zone is None else {"zone": self.zone}))
+        if civil.notice:
+            self.notes.append(civil.notice)
+        zone = self.zone or said.zone
+        if zone is None and (said.utc_offset_h is not None or self.time.strip().lower() == "now"):
+            self._set_offset(civil.time)
             return
-        self._set_clock(moment)
-        self.changes.update(zone_mode="NAME", zone_name=name) if name else self.changes.update(zone_mode="PLACE")
-        if civil.occurrence != "once":
-            how = "comes twice, and the first is taken" if civil.occurrence == "repeated" else f"is left out by the clocks there, and {moment:%H:%M} is taken"
-            self.notes.append(f"time = {self.time}: {how}")
+        self._set_clock(civil.time)
+        self.changes.update({"zone_mode": "PLACE"} if zone is None else {"zone_mode": "NAME", "zone_name": zone})
         # The second of an hour that comes twice is known by its offset only.
-        bare = moment.replace(tzinfo=None).isoformat()
-        if name and places.civil_time(bare, **place, zone=name).time != moment:
-            self._set_offset(moment)
+        local = civil.time.replace(tzinfo=None).isoformat()
+        if zone is not None and places.civil_time(local, **place, zone=zone).time != civil.time:
+            self._set_offset(civil.time)
 
     def _set_offset(self, moment):
         hours = moment.utcoffset().total_seconds() / 3600.0
@@ -84,14 +83,7 @@ class Reading:
         self.changes.update(year=whole.year, month=whole.month, day=whole.day, hour=hour, time_offset_h=0.0)
 
 
-def _is_instant(text, place):
-    """Whether a text of a time means the same instant in every zone: it has an offset or a zone of its own."""
-    east, west = (places.civil_time(text, **place, zone=zone).time for zone in ("Etc/GMT-12", "Etc/GMT+12"))
-    # "Now" is a little later the second time.
-    return abs((east - west).total_seconds()) < 3600.0
-
-
-def number(key, value):
+def checked_number(key, value):
     """Return `value` if it is a number that single precision can hold."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= 3e38:
         raise ValueError(f"{key} = {value!r}: must be a number")
@@ -126,22 +118,21 @@ def _told(own, key, value, reading):
 
 def _read_angle(key, value, reading):
     if value is not None:
-        reading.changes[key] = math.radians(number(key, value))
+        reading.changes[key] = math.radians(checked_number(key, value))
 
 
 def _read_elevation(key, value, reading):
     if value is not None:
-        reading.changes[key] = number(key, value)
+        reading.changes[key] = checked_number(key, value)
 
 
 def _read_place(key, value, reading):
     if value is None:
         return
-    if {"latitude", "longitude"} & reading.changes.keys():
-        raise ValueError(f"place = {value!r}: must be left out where latitude and longitude are given")
     found = places.locate(_text(key, value))
-    for name, content in (("latitude", math.radians(found.latitude)), ("longitude", math.radians(found.longitude)), ("elevation_m", found.elevation_m)):
-        reading.changes.setdefault(name, content)
+    reading.changes.update(latitude=math.radians(found.latitude), longitude=math.radians(found.longitude))
+    # A height of its own counts more, wherever it stands.
+    reading.changes.setdefault("elevation_m", found.elevation_m)
     reading.notes.append(f"place = {value}: {found.label}")
 
 
@@ -172,9 +163,9 @@ def _read_air(key, value, reading):
         if name in {"preset", "aerosol", "ground", "quality"}:
             changes[name] = content
         elif name in AMOUNTS:
-            changes.update({"haze": name, name: number(f"{key}.{name}", content)})
+            changes.update({"haze": name, name: checked_number(f"{key}.{name}", content)})
         elif name in switches:
-            changes.update({switches[name]: True, name: number(f"{key}.{name}", content)})
+            changes.update({switches[name]: True, name: checked_number(f"{key}.{name}", content)})
         elif name == "polarisation":
             _only(True, f"{key}.{name}", content)
         else:
@@ -189,7 +180,7 @@ def _read_night(key, value, reading):
         if name == "bortle":
             reading.changes["light_pollution"] = str(content)
         elif name in names:
-            reading.changes[names[name]] = content if name == "when" else number(f"{key}.{name}", content)
+            reading.changes[names[name]] = content if name == "when" else checked_number(f"{key}.{name}", content)
         else:
             raise ValueError(f"{key}.{name} = {content!r}: must not be there; the panel has no such setting")
 
@@ -200,7 +191,7 @@ def _read_layers(key, value, reading):
     for name, factor in _table(key, value).items():
         if name not in known:
             raise ValueError(f"{key}.{name} = {factor!r}: must be one of {', '.join(known)}")
-        reading.changes[f"layer_{name}"] = number(f"{key}.{name}", factor)
+        reading.changes[f"layer_{name}"] = checked_number(f"{key}.{name}", factor)
 
 
 def _read_filter(key, value, reading):
@@ -211,13 +202,13 @@ def _read_filter(key, value, reading):
     changes.update(filter_mode="VIEW", filter_strength=1.0, filter_angle=0.0)
     for name, content in _table(key, value).items():
         if name == "strength":
-            changes["filter_strength"] = number(f"{key}.{name}", content)
+            changes["filter_strength"] = checked_number(f"{key}.{name}", content)
         elif name == "angle_deg":
-            changes["filter_angle"] = math.radians(number(f"{key}.{name}", content))
+            changes["filter_angle"] = math.radians(checked_number(f"{key}.{name}", content))
         elif name == "held_towards_deg":
             if not isinstance(content, (list, tuple)) or len(content) != 2:
                 raise ValueError(f"{key}.{name} = {content!r}: must be altitude and azimuth")
-            altitude, azimuth = (number(f"{key}.{name}", angle) for angle in content)
+            altitude, azimuth = (checked_number(f"{key}.{name}", angle) for angle in content)
             changes.update(filter_mode="HELD", filter_altitude=math.radians(altitude), filter_azimuth=math.radians(azimuth))
         else:
             raise ValueError(f"{key}.{name} = {content!r}: must be strength, angle_deg or held_towards_deg")
@@ -227,7 +218,7 @@ def _read_probe(key, value, reading):
     for name, content in _table(key, value).items():
         if name == "width":
             offered = [item for item, _, _ in choices.WIDTHS]
-            reading.changes["width"] = number(f"{key}.{name}", content)
+            reading.changes["width"] = checked_number(f"{key}.{name}", content)
             reading.changes["width_choice"] = str(content) if str(content) in offered else "OTHER"
             if content % 2:
                 raise ValueError(f"{key}.{name} = {content}: must be even")

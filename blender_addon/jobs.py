@@ -139,7 +139,9 @@ def _without_panics():
 def sky_of(request):
     """Return the skyprobe.Sky of `request`."""
     night = skyprobe.Night(**(request.night or {}))
-    return skyprobe.Sky(**request.place, time=request.time, atmosphere=atmosphere(request.air), night=night)
+    # The panel tells what had to be assumed about the time, and here nothing is left to assume.
+    civil = skyprobe.places.civil_time(request.time, request.place["latitude"], request.place["longitude"])
+    return skyprobe.Sky(**request.place, time=civil.time, zone=civil.zone, atmosphere=atmosphere(request.air), night=night)
 
 
 def render(sky, request, progress=None):

@@ -133,7 +133,7 @@ def zone_name(settings):
 def time(settings):
     """Return the time as ISO 8601 with its zone in brackets, its offset, or neither where the place decides.
 
-    With a time offset it is given by its offset from universal time, as hours that pass do not know of daylight saving.
+    With a time offset it has its offset from universal time and its zone, as hours that pass do not know of daylight saving.
     """
     date(settings)
     hour, minute, second = clock(settings)
@@ -147,15 +147,18 @@ def time(settings):
     check_finite(settings, "time_offset_h")
     if settings.time_offset_h == 0.0:
         return text
-    start = places.civil_time(text, **coordinates(settings)).time
+    start = places.civil_time(text, **coordinates(settings))
     try:
-        shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
+        shifted = start.time.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
     except OverflowError:
         shifted = None
     # The years that the calendar of the panel has.
     if shifted is None or not FIRST_YEAR <= shifted.year <= LAST_YEAR:
         raise ValueError(f"time_offset_h = {settings.time_offset_h:g}: must lead to a year from {FIRST_YEAR} to {LAST_YEAR}")
-    return shifted.isoformat(timespec="seconds")
+    if start.zone is None:
+        return shifted.astimezone(start.time.tzinfo).isoformat(timespec="seconds")
+    shown = places.civil_time(f"{shifted:%Y-%m-%dT%H:%M:%S}Z[{start.zone}]", **coordinates(settings)).time
+    return f"{shown.isoformat(timespec='seconds')}[{start.zone}]"
 
 
 def civil_time(settings):
@@ -170,7 +173,7 @@ def now(settings):
         check_finite(settings, "utc_offset")
         return moment.astimezone(datetime.timezone(datetime.timedelta(hours=settings.utc_offset)))
     zone = zone_name(settings) if settings.zone_mode == "NAME" else places.time_zone(**coordinates(settings))
-    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **coordinates(settings)).time.tzinfo)
+    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}Z[{zone}]", **coordinates(settings)).time.tzinfo)
 
 
 def set_clock(settings, moment):
