@@ -18,7 +18,7 @@ WHOLE = {"atmosphere", "night", "probe"}
 ONLY = {"model": "scattering", "sun_model": "iau"}
 ONLY_OF_PROBE = {"projection": "latlong", "extent": "full", "ground": "on"}
 # The value that Blender's own picture has. Another makes another file of the same light.
-OWN_OF_PROBE = {"rows": "centre", "scale": "blender", "color_space": "lin_rec709", "gamut": "desaturate"}
+OWN_OF_PROBE = {"rows": "centre", "turn_deg": 0.0, "scale": "blender", "color_space": "lin_rec709", "gamut": "desaturate"}
 OWN_OF_FILE = {"half": "off", "exposure_stops": 0.0, "operator": "sky", "layers": False}
 AMOUNTS = ("aod550", "turbidity", "visibility_km")
 

@@ -91,7 +91,7 @@ def compare(folder, binary):
         again = values.final_request(scene)
         answer[name] = {
             "mean": float(ours.mean(dtype=np.float64)),
-            "difference": float(np.abs(ours - theirs).max() / ours.mean()) if ours.shape == theirs.shape else f"{ours.shape} is not {theirs.shape}",
+            "difference": float(np.abs(ours - theirs).max() / max(ours.mean(), 1e-12)) if ours.shape == theirs.shape else f"{ours.shape} is not {theirs.shape}",
             "lost": [key for key in vars(request) if getattr(request, key) != getattr(again, key) and key != "time"],
             "time": abs((_instant(request) - _instant(again)).total_seconds()),
         }

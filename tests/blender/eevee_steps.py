@@ -23,16 +23,19 @@ def mean(picture):
     return picture.mean(axis=(0, 1), dtype=np.float64).tolist()
 
 
-def white_plane(altitude_deg):
-    """Return the mean radiance of the white plane under the Sun as a lamp and in the map, and the irradiance of the same sky's probe."""
+def white_plane(altitudes_deg):
+    """Return, for each altitude of the Sun, the mean radiance of the white plane under it as a lamp and in the map, and the irradiance of the probe."""
     data = load_scene()
-    answer = {"reflectance": data["materials"]["white"]["reflectance"]}
-    for name, sun_in_map in (("lamp", False), ("map", True)):
-        scene = set_up(["plane"], "top_camera")
-        sky = light_with_sun(scene, altitude_deg, 200.0, 1024, sun_in_map)
-        answer[name] = mean(in_eevee(scene))
-    probe = sky.render(width=1024, scale="blender", color_space="lin_rec709", sun_disc=True)
-    return {**answer, "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist()}
+    answers = []
+    for altitude in altitudes_deg:
+        answer = {"reflectance": data["materials"]["white"]["reflectance"]}
+        for name, sun_in_map in (("lamp", False), ("map", True)):
+            scene = set_up(["plane"], "top_camera")
+            sky = light_with_sun(scene, altitude, 200.0, 1024, sun_in_map)
+            answer[name] = mean(in_eevee(scene))
+        probe = sky.render(width=1024, scale="blender", color_space="lin_rec709", sun_disc=True)
+        answers.append({**answer, "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist()})
+    return answers
 
 
 def shadows(norths_deg):

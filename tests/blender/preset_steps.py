@@ -141,7 +141,7 @@ def told():
         "place": "Lund, Sweden",
         "time": "2005-03-27T02:30",
         "tolerance": 0.01,
-        "probe": {"width": 512, "rows": "corner", "scale": "mitsuba", "color_space": "acescg", "gamut": "keep"},
+        "probe": {"width": 512, "rows": "corner", "turn_deg": 90.0, "scale": "mitsuba", "color_space": "acescg", "gamut": "keep"},
         "file": {"half": "scale", "exposure_stops": 1.0, "operator": "aces", "layers": True},
         "output": ["sky.exr"],
     }

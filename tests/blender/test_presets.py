@@ -54,7 +54,7 @@ def test_what_blender_does_without_is_told(host):
     answer = host.run("preset_steps.told")
     notes = "\n".join(answer["notes"])
     for fragment in (
-        "Lund", "2005-03-27T02:30:00 does not exist", "tolerance = 0.01", "probe.rows = 'corner'", "probe.scale = 'mitsuba'", "probe.color_space = 'acescg'",
+        "Lund", "2005-03-27T02:30:00 does not exist", "tolerance = 0.01", "probe.rows = 'corner'", "probe.turn_deg = 90.0", "probe.scale = 'mitsuba'", "probe.color_space = 'acescg'",
         "probe.gamut = 'keep'", "file.half = 'scale'", "file.exposure_stops = 1.0", "file.operator = 'aces'", "file.layers = True", "output = ['sky.exr']",
     ):
         assert fragment in notes, fragment
