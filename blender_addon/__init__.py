@@ -5,7 +5,7 @@
         └──> live (each change, at once, coarsely)
     operators, sequence (one probe, one a frame) ──> beside (one work at a time, with progress)
 
-`settings` holds what the user sets, `panels` shows it, `configuration` and `presets` keep it in files, `handlers` follows Blender's own
+`world_sun` gives EEVEE the Sun of the map, `texture_cache` takes Cycles' tiles of our pictures away with them. `settings` holds what the user sets, `panels` shows it, `configuration` and `presets` keep it in files, `handlers` follows Blender's own
 events, `failures` makes a line of what went wrong and `status_bar` shows it, `interface` has parts of the window drawn again, `compat` knows
 what differs between Blender versions.
 Conventions: +X east, +Y north (until the user turns north), +Z up.

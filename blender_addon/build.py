@@ -97,15 +97,18 @@ def refuse_two_of_a_platform(wheels):
 
 
 def find_validator():
-    """Return the path of Blender's extension tool, or None."""
+    """Return the path of the newest Blender's extension tool, or None."""
     roots = [Path(path) for path in ROOT.glob(".venv-bpy*/lib/python3.*/site-packages/bpy")]
     spec = importlib.util.find_spec("bpy")
     if spec and spec.submodule_search_locations:
         roots[:0] = [Path(path) for path in spec.submodule_search_locations]
-    for root in roots:
-        for tool in root.glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"):
-            return tool
-    return None
+    tools = [tool for root in roots for tool in root.glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py")]
+    # The rules of the newest Blender hold for all that come.
+    return max(tools, key=lambda tool: _version(tool.parents[4].name), default=None)
+
+
+def _version(name):
+    return tuple(int(number) for number in name.split("."))
 
 
 def validate(archive, tool):

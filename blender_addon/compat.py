@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every difference between Blender versions, and between builds with and without Cycles, that the add-on meets."""
 
+import os
+
 import bpy
 import gpu
+
+# Options of a property that holds a path which may begin with //. Before 4.5 there is no such option, and none is needed.
+PATH_OPTIONS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
 
 # Names that bpy.data.colorspace.working_space can have, and what skyprobe calls the same space.
 _WORKING_SPACES = {"Linear Rec.709": "lin_rec709", "Linear Rec.2020": "lin_rec2020", "ACEScg": "acescg"}
@@ -43,16 +48,32 @@ def set_importance_map(world, width):
     cycles.sample_map_resolution = min(width, limit)
 
 
-def set_sun_extraction(world, threshold, angle=None):
-    """Let EEVEE make a sun of angular diameter `angle` [radians] out of what is brighter than `threshold`; 0 for no sun.
+def has_sun_extraction():
+    """Whether EEVEE makes a sun lamp of what is very bright in a world: from 4.2 on."""
+    return bpy.app.version >= (4, 2, 0)
 
-    Before 4.2 EEVEE takes no sun out of a world.
-    """
-    if bpy.app.version < (4, 2, 0):
+
+def set_sun_extraction(world, threshold, angle=None):
+    """Let EEVEE make a sun of angular diameter `angle` [radians] out of what is brighter than `threshold`; 0 for no sun."""
+    if not has_sun_extraction():
         return
     world.sun_threshold = threshold
     if angle is not None:
         world.sun_angle = angle
+
+
+def node(nodes, name, kind, location):
+    """Return the node `name` of `nodes`, made at `location` where there is none; one of another kind gives the name up."""
+    found = nodes.get(name)
+    if found is not None and found.bl_idname != kind:
+        # A node of the user's under our name.
+        found.name = f"{name} (another)"
+        found = None
+    if found is None:
+        found = nodes.new(kind)
+        found.name = found.label = name
+        found.location = location
+    return found
 
 
 def key_of(thing):
@@ -63,6 +84,24 @@ def key_of(thing):
 def scene_of(key):
     """Return the scene of which `key_of` made `key`, or None if it is gone."""
     return next((scene for scene in bpy.data.scenes if key_of(scene) == key), None)
+
+
+def forget_old_properties(scene):
+    """Delete the settings as Blender 4 kept them.
+
+    Blender 5 moves them elsewhere when it opens such a file, and leaves the old ones as a custom property, which would hold on to our worlds,
+    images and lamps for ever.
+    """
+    if bpy.app.version >= (5, 0, 0) and scene.library is None and hasattr(scene.get("skyprobe"), "to_dict"):
+        del scene["skyprobe"]
+
+
+def texture_cache_folder():
+    """Return where Cycles keeps tiles of a picture (from 5.2 on), relative to the picture; None for a folder that is not beside it, or no cache."""
+    if bpy.app.version < (5, 2, 0):
+        return None
+    folder = bpy.context.preferences.filepaths.texture_cache_directory or "blender_tx"
+    return None if folder.startswith("//") or os.path.isabs(folder) else folder
 
 
 def is_unused(thing):
@@ -125,11 +164,13 @@ def check_animatable(thing, data_path):
         raise ValueError(f"driver = {data_path}: must not be there, as it overrules keyframes; delete it")
 
 
-def make_linear(*things):
-    """Let every curve of ours of `things` go straight from key to key."""
+def make_linear(*things, only=""):
+    """Let every curve of ours of `things`, whose data path begins with `only`, go straight from key to key."""
     for thing in things:
         for curve in curves(thing):
             if isinstance(thing, bpy.types.Scene) and not curve.data_path.startswith("skyprobe."):
+                continue
+            if not curve.data_path.startswith(only):
                 continue
             for point in curve.keyframe_points:
                 point.interpolation = "LINEAR"
@@ -146,7 +187,7 @@ def shift_curve(curve, by):
 
 def own_action(thing):
     """Make sure that no other data has the action of `thing`: a copy of a scene begins with the same one."""
-    data = thing.animation_data
+    data = thing.animation_data if thing is not None else None
     if data is not None and data.action is not None and (data.action.users > 1 or data.action.library is not None):
         data.action = data.action.copy()
 

@@ -72,6 +72,13 @@ def _loading(*_):
 
 
 @persistent
+def _loaded(*_):
+    """A file of an older Blender loses what would keep our data in it for ever."""
+    for scene in bpy.data.scenes:
+        _guarded(scene, compat.forget_old_properties)
+
+
+@persistent
 def _saving(*_):
     """A preview is in memory only: it goes into the file, which shows its sky without the add-on."""
     for scene in bpy.data.scenes:
@@ -87,6 +94,7 @@ _HANDLERS = (
     ("redo_post", _undone),
     ("load_pre", _loading),
     ("load_post", _loading),
+    ("load_post", _loaded),
     ("save_pre", _saving),
 )
 

@@ -2,6 +2,7 @@
 """What is computed for Blender, on whatever thread asks. Nothing here touches bpy, which only the main thread may use."""
 
 import contextlib
+import hashlib
 import json
 import math
 import os
@@ -38,6 +39,11 @@ class SkyRequest:
     def key(self):
         """A text that is equal for equal requests only."""
         return json.dumps(asdict(self), sort_keys=True)
+
+    @property
+    def digest(self):
+        """The SHA-256 of `key`, in hexadecimal digits."""
+        return hashlib.sha256(self.key.encode()).hexdigest()
 
     @property
     def air_key(self):
@@ -133,15 +139,15 @@ def _without_panics():
 def sky_of(request):
     """Return the skyprobe.Sky of `request`."""
     night = skyprobe.Night(**(request.night or {}))
-    return skyprobe.Sky(**request.place, time=request.time, atmosphere=atmosphere(request.air), night=night)
+    # The panel tells what had to be assumed about the time, and here nothing is left to assume.
+    civil = skyprobe.places.civil_time(request.time, request.place["latitude"], request.place["longitude"])
+    return skyprobe.Sky(**request.place, time=civil.time, zone=civil.zone, atmosphere=atmosphere(request.air), night=night)
 
 
 def render(sky, request, progress=None):
     """Render `sky` as `request` says; return the skyprobe.Probe and the SkyResult."""
-    factors = dict(request.layers or {})
+    factors = request.layers or {}
     sun_factor, moon_factor = factors.get("sun", 1.0), factors.get("moon", 1.0)
-    if not request.moon_in_map and "moon" in sky.layer_names:
-        factors["moon"] = 0.0
     # A layer that this sky has not is no error: the factor waits for the night.
     factors = {name: factor for name, factor in factors.items() if name in sky.layer_names}
     held = request.polarising_filter
@@ -150,6 +156,7 @@ def render(sky, request, progress=None):
         scale="blender",
         color_space="lin_rec709",
         sun_disc=request.sun_in_map,
+        moon_disc=request.moon_in_map,
         polarising_filter=None if held is None else skyprobe.PolarisingFilter(**held),
         layers=factors or None,
         progress=progress,

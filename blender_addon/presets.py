@@ -35,13 +35,21 @@ def read(path):
     """Return the configuration in the file `path`; ValueError or OSError that names it."""
     try:
         # With or without the mark that some editors put first.
-        return json.loads(Path(path).read_text(encoding="utf-8-sig"))
+        return json.loads(Path(path).read_text(encoding="utf-8-sig"), object_pairs_hook=_without_doubles)
     except OSError as error:
         raise OSError(f"file = {path}: must be a file that can be read ({error.strerror})") from None
     except RecursionError:
         raise ValueError(f"{path}: must be JSON text (it is nested too deeply)") from None
     except ValueError as error:
         raise ValueError(f"{path}: must be JSON text ({error})") from None
+
+
+def _without_doubles(pairs):
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        names = [name for name, _ in pairs]
+        raise ValueError(f"{next(name for name in names if names.count(name) > 1)} is there twice")
+    return content
 
 
 def write(path, content):
@@ -62,18 +70,23 @@ def write(path, content):
 
 
 def apply(scene, path):
-    """Give `scene` the configuration in the file `path`; ValueError or OSError, before any change, if that cannot be."""
+    """Give `scene` the configuration in the file `path`; return what of it Blender does without, as texts.
+
+    ValueError or OSError, before any change, if that cannot be.
+    """
     content = read(path)
     with live.held(scene):
         try:
-            configuration.to_settings(content, scene.skyprobe)
+            return configuration.to_settings(content, scene.skyprobe)
         except ValueError as error:
             raise ValueError(f"{Path(path).name}: {error}") from None
 
 
 class _Applying(Telling):
     def run(self, context):
-        apply(context.scene, self.filepath)
+        notes = apply(context.scene, self.filepath)
+        if notes:
+            self.report({"WARNING"}, f"Skyprobe: {'; '.join(notes)}")
         return {"FINISHED"}
 
 

@@ -86,10 +86,8 @@ def zone(settings):
     found = [", ".join(filter(None, (civil.zone, offset)))]
     if civil.daylight_saving:
         found.append(f"Daylight saving time ({civil.abbreviation})")
-    if civil.occurrence == "repeated":
-        found.append("Clocks are set back: this hour comes twice, the first is taken")
-    elif civil.occurrence == "skipped":
-        found.append("Clocks are set forward: this hour is left out")
+    if civil.notice:
+        found.extend(wrapped(civil.notice))
     return found
 
 

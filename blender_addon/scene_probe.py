@@ -5,7 +5,7 @@ import json
 
 import bpy
 
-from . import compat, exposure, jobs, lamps, world_nodes
+from . import compat, exposure, jobs, lamps, texture_cache, world_nodes, world_sun
 
 PREVIEW_NAME = "Skyprobe Preview"
 
@@ -69,6 +69,7 @@ def show_sequence(scene, image, frames, result):
 def remove(scene):
     """Give `scene` the world that it had before, and delete lamps, world and images of the probe."""
     settings = scene.skyprobe
+    compat.forget_old_properties(scene)
     exposure.remove_keys(scene)
     if scene.world is not None and scene.world == settings.probe_world:
         scene.world = settings.previous_world
@@ -167,8 +168,9 @@ def _show(scene, image, result, what):
 
 
 def _stop_sequence(scene):
-    """Take away the keys that the sequence gave lamps and exposure."""
+    """Take away the keys that the sequence gave lamps, world and exposure."""
     exposure.remove_keys(scene)
+    world_sun.remove_keys(scene.skyprobe.probe_world)
     for lamp in (scene.skyprobe.sun_lamp, scene.skyprobe.moon_lamp):
         if lamp is not None:
             lamp.animation_data_clear()
@@ -191,6 +193,8 @@ def _own(scene):
     if _is_foreign(scene, "probe_world"):
         world = settings.probe_world
         settings.probe_world = world.copy()
+        for thing in (settings.probe_world, settings.probe_world.node_tree):
+            compat.own_action(thing)
         if scene.world == world:
             scene.world = settings.probe_world
 
@@ -223,6 +227,7 @@ def _shown_image(scene):
 
 def _remove_image(image):
     if image is not None and compat.is_unused(image):
+        texture_cache.forget(image)
         bpy.data.images.remove(image)
 
 

@@ -2,10 +2,11 @@
 """Animated skies: a probe for each frame, as files that play as an image sequence, and keyframes for a time-lapse."""
 
 import time
+from pathlib import Path
 
 import bpy
 
-from . import beside, compat, exposure, jobs, lamps, live, operators, scene_probe, sequence_files, values, world_nodes
+from . import beside, compat, exposure, jobs, lamps, live, operators, scene_probe, sequence_files, values, world_nodes, world_sun
 from .failures import Telling
 
 FIRST_FRAME = 0
@@ -34,6 +35,7 @@ class _Sequence:
         self._done = 0
         self._skipped = 0
         self._files = sequence_files.SequenceFiles(values.folder(settings, settings.sequence_directory))
+        refuse_folder_in_use(scene, self._files.folder)
         values.check_path(self._files.picture(self._frames[-1]))
         values.final_request(scene)
         self._files.prepare(len(self._frames), values.width(settings))
@@ -98,6 +100,17 @@ class _Sequence:
         return scene
 
 
+def refuse_folder_in_use(scene, folder):
+    """Raise ValueError if another scene of this file plays a sequence from `folder` (a path), whose pictures would change under it."""
+    for other in bpy.data.scenes:
+        settings = other.skyprobe
+        image = settings.image
+        if other == scene or settings.shown != "SEQUENCE" or image is None or image == scene.skyprobe.image:
+            continue
+        if Path(bpy.path.abspath(image.filepath_raw)).parent == folder:
+            raise ValueError(f"sequence_directory = {scene.skyprobe.sequence_directory}: must be another; the scene {other.name} plays its sequence from there")
+
+
 def animate(scene, results):
     """Keyframe lamps and, if it follows the sky, exposure of `scene` by `results` (jobs.SkyResult by frame); return what could not be, or an empty text."""
     settings = scene.skyprobe
@@ -117,6 +130,10 @@ def animate(scene, results):
     for lamp in (settings.sun_lamp, settings.moon_lamp):
         if lamp is not None:
             compat.make_linear(lamp, lamp.data)
+    first = results[min(results)].request
+    if first.sun_in_map:
+        discs = {frame: world_sun.disc_of(result.sun, result.request.width) for frame, result in results.items()}
+        world_sun.insert_keys(settings.probe_world, discs)
     if not settings.auto_exposure:
         return ""
     return exposure.insert_keys(scene, {frame: result.horizontal_lx for frame, result in results.items()})

@@ -5,7 +5,6 @@ A frame is finished when its record is there and says what is wanted now: the pi
 is written and the record follows it. So a run that was killed goes on where it was, and several machines can share a folder.
 """
 
-import hashlib
 import json
 import os
 import shutil
@@ -57,7 +56,7 @@ class SequenceFiles:
         """Return the jobs.SkyResult of `frame` if its picture is there and shows `request`, else None."""
         try:
             content = json.loads(self._record(frame).read_text(encoding="utf-8"))
-            if content["request"] != _digest(request) or content["size"] != os.path.getsize(self.picture(frame)):
+            if content["request"] != request.digest or content["size"] != os.path.getsize(self.picture(frame)):
                 return None
             return jobs.result_from(content["result"], request)
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
@@ -67,7 +66,7 @@ class SequenceFiles:
     def finish(self, frame, result):
         """Note that the picture of `frame` is whole and shows `result`."""
         content = {
-            "request": _digest(result.request),
+            "request": result.request.digest,
             "size": os.path.getsize(self.picture(frame)),
             "result": jobs.result_content(result),
             "settings": asdict(result.request),
@@ -84,7 +83,3 @@ class SequenceFiles:
 
     def _record(self, frame):
         return self.folder / RECORDS / f"{self.prefix}{frame:04d}.json"
-
-
-def _digest(request):
-    return hashlib.sha256(request.key.encode()).hexdigest()

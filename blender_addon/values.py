@@ -24,6 +24,8 @@ FIRST_YEAR, LAST_YEAR = 1000, 3000
 LONGEST_PATH = 1023
 # The preview's air is solved as coarsely as the library offers.
 PREVIEW_QUALITY = "draft"
+# Digits of a request's digest in the name of its file.
+DIGITS = 8
 # What the eye sees at best [magnitude].
 PREVIEW_STAR_LIMIT = 6.5
 
@@ -88,13 +90,13 @@ def width(settings):
 
 
 def as_typed(value):
-    """Return the number that the user typed: Blender keeps single precision, in which 0.1 is another and the poles lie beyond 90."""
-    return round(value, 5)
+    """Return the number that the user typed: Blender keeps single precision, seven digits, in which 0.1 is another."""
+    return float(f"{value:.7g}")
 
 
 def degrees(angle):
-    """Return an angle [radians] as the degrees that the user typed."""
-    return as_typed(math.degrees(angle))
+    """Return an angle [radians] as the degrees that the user typed; in single precision the poles lie beyond 90."""
+    return round(math.degrees(angle), 5)
 
 
 def check_finite(settings, *names):
@@ -131,7 +133,7 @@ def zone_name(settings):
 def time(settings):
     """Return the time as ISO 8601 with its zone in brackets, its offset, or neither where the place decides.
 
-    With a time offset it is given by its offset from universal time, as hours that pass do not know of daylight saving.
+    With a time offset it has its offset from universal time and its zone, as hours that pass do not know of daylight saving.
     """
     date(settings)
     hour, minute, second = clock(settings)
@@ -145,15 +147,18 @@ def time(settings):
     check_finite(settings, "time_offset_h")
     if settings.time_offset_h == 0.0:
         return text
-    start = places.civil_time(text, **coordinates(settings)).time
+    start = places.civil_time(text, **coordinates(settings))
     try:
-        shifted = start.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
+        shifted = start.time.astimezone(datetime.timezone.utc) + datetime.timedelta(seconds=round(settings.time_offset_h * 3600.0))
     except OverflowError:
         shifted = None
     # The years that the calendar of the panel has.
     if shifted is None or not FIRST_YEAR <= shifted.year <= LAST_YEAR:
         raise ValueError(f"time_offset_h = {settings.time_offset_h:g}: must lead to a year from {FIRST_YEAR} to {LAST_YEAR}")
-    return shifted.isoformat(timespec="seconds")
+    if start.zone is None:
+        return shifted.astimezone(start.time.tzinfo).isoformat(timespec="seconds")
+    shown = places.civil_time(f"{shifted:%Y-%m-%dT%H:%M:%S}Z[{start.zone}]", **coordinates(settings)).time
+    return f"{shown.isoformat(timespec='seconds')}[{start.zone}]"
 
 
 def civil_time(settings):
@@ -168,7 +173,7 @@ def now(settings):
         check_finite(settings, "utc_offset")
         return moment.astimezone(datetime.timezone(datetime.timedelta(hours=settings.utc_offset)))
     zone = zone_name(settings) if settings.zone_mode == "NAME" else places.time_zone(**coordinates(settings))
-    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}+00:00[{zone}]", **coordinates(settings)).time.tzinfo)
+    return moment.astimezone(places.civil_time(f"{moment:%Y-%m-%dT%H:%M:%S}Z[{zone}]", **coordinates(settings)).time.tzinfo)
 
 
 def set_clock(settings, moment):
@@ -255,8 +260,13 @@ def check_path(path):
 
 
 def probe_path(settings):
-    """Return the absolute path of the probe's file: in the folder, or in Blender's temporary one if it is to be packed."""
-    where, when = place(settings), time(settings)
+    """Return the absolute path of the probe's file: in the folder, or in Blender's temporary one if it is to be packed.
+
+    The name tells place, time and width, and ends in a digest of all that the picture depends on: a file of other settings, which a saved .blend
+    may show, is never written over.
+    """
+    request = sky_request(settings, settings.quality, width(settings))
+    where, when = request.place, request.time
     stamp = when[:16].replace("-", "").replace(":", "")
-    name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{width(settings)}.exr"
+    name = f"sky_{where['latitude']:+.4f}_{where['longitude']:+.4f}_{stamp}_{request.width}_{request.digest[:DIGITS]}.exr"
     return check_path(os.path.join(bpy.app.tempdir if settings.storage == "PACKED" else folder(settings), name))

@@ -6,14 +6,10 @@ as it was for other scenes and comes back unchanged. All is plain Blender data, 
 """
 
 import contextlib
-import math
 
 import bpy
 
-from . import compat
-
-# Far above any sky and far below 65504, the largest value in EEVEE's copy of the world.
-EEVEE_THRESHOLD = 1000.0
+from . import compat, world_sun
 
 COORDINATE, MAPPING, ENVIRONMENT, BACKGROUND = "Skyprobe Direction", "Skyprobe North", "Skyprobe Environment", "Skyprobe Background"
 
@@ -68,19 +64,20 @@ def show(world, image, north):
     # The user may have switched them off.
     compat.use_world_nodes(world)
     nodes, links = world.node_tree.nodes, world.node_tree.links
-    output = world.node_tree.get_output_node("ALL") or nodes.new("ShaderNodeOutputWorld")
-    x, y = output.location
-    coordinate = _node(nodes, COORDINATE, "ShaderNodeTexCoord", (x - 900.0, y - 300.0))
-    mapping = _node(nodes, MAPPING, "ShaderNodeMapping", (x - 700.0, y - 300.0))
-    environment = _node(nodes, ENVIRONMENT, "ShaderNodeTexEnvironment", (x - 500.0, y - 300.0))
-    background = _node(nodes, BACKGROUND, "ShaderNodeBackground", (x - 200.0, y - 300.0))
+    outputs = _outputs(world.node_tree) or [nodes.new("ShaderNodeOutputWorld")]
+    x, y = outputs[0].location
+    coordinate = compat.node(nodes, COORDINATE, "ShaderNodeTexCoord", (x - 900.0, y - 300.0))
+    mapping = compat.node(nodes, MAPPING, "ShaderNodeMapping", (x - 700.0, y - 300.0))
+    environment = compat.node(nodes, ENVIRONMENT, "ShaderNodeTexEnvironment", (x - 500.0, y - 300.0))
+    background = compat.node(nodes, BACKGROUND, "ShaderNodeBackground", (x - 200.0, y - 300.0))
     if environment.image != image:
         environment.image = image
     environment.projection = "EQUIRECTANGULAR"
     links.new(coordinate.outputs["Generated"], mapping.inputs["Vector"])
     links.new(mapping.outputs["Vector"], environment.inputs["Vector"])
     links.new(environment.outputs["Color"], background.inputs["Color"])
-    links.new(background.outputs["Background"], output.inputs["Surface"])
+    for output in outputs:
+        links.new(background.outputs["Background"], output.inputs["Surface"])
     set_north(world, north)
 
 
@@ -136,40 +133,41 @@ def set_disc_in_map(world, lamp, width):
     """Tell both engines that the map of `width` pixels holds the disc of the jobs.Lamp `lamp`."""
     # Cycles finds the disc reliably when its importance map is twice as wide as the probe.
     compat.set_importance_map(world, 2 * width)
-    # EEVEE makes a sun of what is brighter than the threshold. A tenth of the mean over the disc, or over the pixel that
-    # holds it, takes all of a dim disc and none of the sky; a bright one EEVEE has clipped to half precision by then.
-    radius = math.radians(lamp.diameter_deg) / 2.0
-    pixel = (2.0 * math.pi / width) ** 2 * math.cos(math.radians(lamp.altitude_deg))
-    threshold = min(0.1 * max(0.0, *lamp.irradiance) / max(math.pi * radius**2, pixel), EEVEE_THRESHOLD)
-    compat.set_sun_extraction(world, threshold, 2.0 * radius)
+    nodes = world.node_tree.nodes
+    world_sun.shine(
+        world,
+        world_sun.disc_of(lamp, width),
+        nodes[MAPPING].outputs["Vector"],
+        nodes[ENVIRONMENT].outputs["Color"],
+        nodes[BACKGROUND].outputs["Background"],
+    )
 
 
 def set_moon_in_map(world, width, sun_altitude_deg):
     """Tell Cycles that the map of `width` pixels holds a Moon that may be the brightest thing in it."""
     compat.set_importance_map(world, 2 * width if sun_altitude_deg < 0.0 else None)
+    world_sun.remove(world)
     compat.set_sun_extraction(world, 0.0)
 
 
 def set_discs_as_lamps(world):
     """Tell both engines that the map holds no Sun: EEVEE must not make a second one of a bright sky."""
     compat.set_importance_map(world, None)
+    world_sun.remove(world)
     compat.set_sun_extraction(world, 0.0)
+
+
+def _outputs(tree):
+    """Return the outputs that the engines take, but for ours: one, or one for each engine where the user has parted them."""
+    found = []
+    for engine in ("ALL", "CYCLES", "EEVEE"):
+        output = tree.get_output_node(engine)
+        if output is not None and output.name != world_sun.OUTPUT and output not in found:
+            found.append(output)
+    return found
 
 
 def _find(world, name, kind):
     """Return the node `name` of `world`, or None if it is gone or of another kind."""
     node = world.node_tree.nodes.get(name) if world.node_tree else None
     return node if node is not None and node.bl_idname == kind else None
-
-
-def _node(nodes, name, kind, location):
-    node = nodes.get(name)
-    if node is not None and node.bl_idname != kind:
-        # A node of the user's under our name.
-        node.name = f"{name} (another)"
-        node = None
-    if node is None:
-        node = nodes.new(kind)
-        node.name = node.label = name
-        node.location = location
-    return node

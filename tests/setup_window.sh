@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Makes .window at the root of the checkout: a small Debian trixie with its Blender 4.3, a newer window than bookworm's 3.4 offers.
-# Optional: where it is, the tests that need a window use it too. Needs root and a Debian; three minutes, 1.7 GB. `rm -rf .window` undoes it.
+# Makes .window at the root of the checkout: a small Debian sid with its Blender, 5.2 LTS or later, a newer window than bookworm's 3.4 offers.
+# Optional, as sid moves: where it is, the tests that need a window use it too. Needs root and a Debian; three minutes, 1.7 GB. `rm -rf .window`
+# undoes it.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 target=$root/.window
-suite=trixie
+suite=sid
+# Without cattr the extensions of Blender fail as it starts, without libgl1 no window opens.
+packages=(blender python3-numpy libgl1-mesa-dri libgl1 libegl1 python3-cattr python3-requests python3-zstandard)
 
 fail() {
     echo "setup: $*" >&2
@@ -12,7 +15,7 @@ fail() {
 }
 
 [ "$(id -u)" = 0 ] || fail "a folder becomes a root only for root"
-if [ -e "$target/made" ]; then
+if [ "$(cat "$target/made" 2> /dev/null || true)" = "$suite" ]; then
     echo "setup: .window is there"
     exit 0
 fi
@@ -27,8 +30,8 @@ cp /etc/resolv.conf "$target/etc/resolv.conf"
 # No services start in there.
 printf '#!/bin/sh\nexit 101\n' > "$target/usr/sbin/policy-rc.d"
 chmod +x "$target/usr/sbin/policy-rc.d"
-chroot "$target" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends blender python3-numpy libgl1-mesa-dri \
+chroot "$target" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" \
     > "$root/target/window.log" 2>&1 || fail "Blender could not be installed; see target/window.log"
 rm -rf "$target"/var/cache/apt/* "$target"/var/lib/apt/lists/* "$target"/usr/share/doc "$target"/usr/share/locale
 chroot "$target" blender --version | head -1 | sed 's/^/setup: window of /'
-touch "$target/made"
+echo "$suite" > "$target/made"

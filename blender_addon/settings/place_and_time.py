@@ -11,12 +11,15 @@ from .. import failures, jobs, live, scene_probe, values, viewport_drawing
 
 # How many names a search offers.
 SUGGESTIONS = 20
+# Letters of the longest text that a search runs for while one types, and of the longest that can be typed: a link to a map.
+LONGEST_NAME, LONGEST_PLACE = 80, 500
 
 
 def _search_places(settings, context, text):
     """Offer the places whose names begin like `text`."""
     try:
-        return [place.label for place in places.search(text, limit=SUGGESTIONS)] if text.strip() else []
+        name = text.strip()
+        return [place.label for place in places.search(name, limit=SUGGESTIONS)] if 0 < len(name) <= LONGEST_NAME else []
     except jobs.USER_ERRORS:
         return []
 
@@ -72,6 +75,7 @@ class PlaceAndTime:
     place: StringProperty(
         name="Place",
         description="Name of a town (Lund, or Lund, Sweden) or coordinates in any spelling (55.71, 13.19 or 55 42 36 N 13 11 24 E)",
+        maxlen=LONGEST_PLACE,
         search=_search_places,
         search_options={"SUGGESTION"},
         update=_place_chosen,

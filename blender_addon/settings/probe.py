@@ -4,14 +4,14 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, IntVectorProperty, PointerProperty, StringProperty
 
-from .. import choices, live, viewport_drawing
+from .. import choices, compat, live, viewport_drawing
 
 SUN_WAYS = (
     ("LAMP", "As a Lamp", "A Sun lamp of the right size, colour and strength: free of noise"),
     (
         "MAP",
         "In the Map",
-        "The disc is drawn into the probe and seen in reflections. For Cycles: EEVEE cannot hold its brightness",
+        "The disc is drawn into the probe and seen in reflections. EEVEE makes a lamp of its own of it",
     ),
 )
 
@@ -81,12 +81,14 @@ class Probe:
         name="Folder",
         description="Folder for OpenEXR files; // is where the .blend is",
         subtype="DIR_PATH",
+        options={"ANIMATABLE"} | compat.PATH_OPTIONS,
         default="//",
     )
     sequence_directory: StringProperty(
         name="Sequence Folder",
         description="Folder for the OpenEXR files of an animated sky, one a frame; // is where the .blend is",
         subtype="DIR_PATH",
+        options={"ANIMATABLE"} | compat.PATH_OPTIONS,
         default="//sky",
     )
 

@@ -911,6 +911,7 @@ class Sky:
         turn_deg: float = 0.0,
         ground: Literal["on", "off", "mirrored"] = "on",
         sun_disc: bool = True,
+        moon_disc: bool = True,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
@@ -937,6 +938,8 @@ class Sky:
             What is seen below the horizon: "on", "off" (black) or "mirrored".
         sun_disc
             Whether the Sun's disc is drawn, with its exact energy at every width.
+        moon_disc
+            Whether the Moon's disc is drawn.
         scale
             What 1.0 means: "blender" (luminance / 683), "mitsuba" (mean W m-2 sr-1 nm-1) or "luminance" (cd m-2).
         color_space
@@ -966,6 +969,7 @@ class Sky:
         turn_deg: float = 0.0,
         ground: Literal["on", "off", "mirrored"] = "on",
         sun_disc: bool = True,
+        moon_disc: bool = True,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
         gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
@@ -985,7 +989,7 @@ class Sky:
         ----------
         path
             Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-        width, projection, rows, extent, turn_deg, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
+        width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
             As for ``render``.
         separate_layers
             Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
@@ -1055,6 +1059,10 @@ class Probe:
 
     @property
     def sun_disc(self) -> bool:
+        """As asked for in ``Sky.render``."""
+
+    @property
+    def moon_disc(self) -> bool:
         """As asked for in ``Sky.render``."""
 
     @property

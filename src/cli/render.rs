@@ -139,6 +139,12 @@ struct ImageOptions {
     /// Draw the Sun's disc, which is the default, over a configuration without it.
     #[arg(long, help_heading = IMAGE, overrides_with = "no_sun_disc")]
     sun_disc: bool,
+    /// Leave the Moon's disc out, to light the scene with a lamp for it.
+    #[arg(long, help_heading = IMAGE, overrides_with = "moon_disc")]
+    no_moon_disc: bool,
+    /// Draw the Moon's disc, which is the default, over a configuration without it.
+    #[arg(long, help_heading = IMAGE, overrides_with = "no_moon_disc")]
+    moon_disc: bool,
     /// What 1.0 means: blender (luminance / 683), mitsuba (mean W m-2 sr-1 nm-1) or luminance (cd m-2). Default: blender.
     #[arg(long, value_name = "NAME", help_heading = IMAGE)]
     scale: Option<String>,
@@ -171,6 +177,9 @@ impl ImageOptions {
         }
         if self.no_sun_disc || self.sun_disc {
             probe.sun_disc = self.sun_disc;
+        }
+        if self.no_moon_disc || self.moon_disc {
+            probe.moon_disc = self.moon_disc;
         }
         if let Some(name) = &self.scale {
             probe.scale = name.parse()?;

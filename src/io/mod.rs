@@ -168,6 +168,7 @@ fn own_fields(settings: &ProbeSettings, metadata: &Metadata) -> Vec<(String, Str
         ("extent", settings.extent.name().to_owned()),
         ("ground", settings.ground.name().to_owned()),
         ("sun_disc", settings.sun_disc.to_string()),
+        ("moon_disc", settings.moon_disc.to_string()),
         ("scale", settings.scale.name().to_owned()),
         ("color_space", settings.color_space.name().to_owned()),
     ];

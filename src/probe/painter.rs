@@ -244,7 +244,7 @@ fn drawn(sky: &dyn SkyLight, settings: &ProbeSettings, grid: &Grid) -> BTreeMap<
             rows.entry(row).or_default().push((column, energy.map(|energy| (energy / solid_angle) as f32)));
         }
     };
-    for disc in sky.discs().iter().filter(|disc| settings.sun_disc || !disc.is_sun) {
+    for disc in sky.discs().iter().filter(|disc| if disc.is_sun { settings.sun_disc } else { settings.moon_disc }) {
         for (column, row, energy) in disc::draw(disc, sky.horizon_altitude(), grid).pixels() {
             add(column, row, energy);
         }

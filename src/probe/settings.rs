@@ -104,8 +104,10 @@ pub struct ProbeSettings {
     pub turn_deg: f64,
     /// What is seen below the horizon.
     pub ground: GroundView,
-    /// Whether the Sun's disc is drawn; other bodies always are.
+    /// Whether the Sun's disc is drawn.
     pub sun_disc: bool,
+    /// Whether the Moon's disc is drawn; planets and stars always are.
+    pub moon_disc: bool,
     /// What the number 1.0 stands for.
     pub scale: Scale,
     /// The colour space of the pixels.
@@ -124,6 +126,7 @@ impl Default for ProbeSettings {
             turn_deg: 0.0,
             ground: GroundView::default(),
             sun_disc: true,
+            moon_disc: true,
             scale: Scale::default(),
             color_space: ColorSpace::default(),
             gamut: Gamut::default(),

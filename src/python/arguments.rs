@@ -22,15 +22,15 @@ pub fn layer_scales(layers: &Bound<'_, PyMapping>) -> PyResult<LayerScales> {
     Ok(LayerScales(layers.items()?.iter().map(factor).collect::<PyResult<_>>()?))
 }
 
-/// The settings that names and numbers ask for: (projection, rows, extent, ground), (scale, color_space, gamut).
+/// The settings that names and numbers ask for: (projection, rows, extent, ground), (sun_disc, moon_disc), (scale, color_space, gamut).
 pub fn probe_settings(
     width: i64,
     layout: [&str; 4],
     turn_deg: f64,
-    sun_disc: bool,
+    discs: [bool; 2],
     colour: [&str; 3],
 ) -> PyResult<ProbeSettings> {
-    let ([projection, rows, extent, ground], [scale, color_space, gamut]) = (layout, colour);
+    let ([projection, rows, extent, ground], [sun_disc, moon_disc], [scale, color_space, gamut]) = (layout, discs, colour);
     let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
     let settings = ProbeSettings {
         width: check_range("width", width as f64, low, high, "pixels")? as usize,
@@ -40,6 +40,7 @@ pub fn probe_settings(
         turn_deg,
         ground: ground.parse()?,
         sun_disc,
+        moon_disc,
         scale: scale.parse()?,
         color_space: color_space.parse()?,
         gamut: json::word("gamut", gamut)?,

@@ -117,6 +117,12 @@ impl Probe {
 
     /// As asked for in ``Sky.render``.
     #[getter]
+    fn moon_disc(&self) -> bool {
+        self.settings.moon_disc
+    }
+
+    /// As asked for in ``Sky.render``.
+    #[getter]
     fn scale(&self) -> &'static str {
         self.settings.scale.name()
     }

@@ -410,6 +410,8 @@ impl Sky {
     ///     What is seen below the horizon: "on", "off" (black) or "mirrored".
     /// sun_disc
     ///     Whether the Sun's disc is drawn, with its exact energy at every width.
+    /// moon_disc
+    ///     Whether the Moon's disc is drawn.
     /// scale
     ///     What 1.0 means: "blender" (luminance / 683), "mitsuba" (mean W m-2 sr-1 nm-1) or "luminance" (cd m-2).
     /// color_space
@@ -427,7 +429,7 @@ impl Sky {
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled.
     #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", turn_deg = 0.0, ground = "on", sun_disc = true,
-        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None,
+        moon_disc = true, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None,
         layers = None, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render(
@@ -440,6 +442,7 @@ impl Sky {
         turn_deg: f64,
         ground: &str,
         sun_disc: bool,
+        moon_disc: bool,
         scale: &str,
         color_space: &str,
         gamut: &str,
@@ -450,7 +453,7 @@ impl Sky {
     ) -> PyResult<Probe> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings =
-            probe_settings(width, [projection, rows, extent, ground], turn_deg, sun_disc, [scale, color_space, gamut])?;
+            probe_settings(width, [projection, rows, extent, ground], turn_deg, [sun_disc, moon_disc], [scale, color_space, gamut])?;
         let rendered =
             work::run(py, progress, |progress| probe::render(&self.inner.light_by(&light, progress)?, &settings, progress))?;
         Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &light, &settings)))
@@ -463,7 +466,7 @@ impl Sky {
     /// ----------
     /// path
     ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-    /// width, projection, rows, extent, turn_deg, ground, sun_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
+    /// width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
     ///     As for ``render``.
     /// separate_layers
     ///     Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
@@ -472,7 +475,7 @@ impl Sky {
     /// progress
     ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
     #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", turn_deg = 0.0, ground = "on", sun_disc = true,
-        scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, layers = None,
+        moon_disc = true, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, layers = None,
         separate_layers = false, half = None, exposure_stops = 0.0, operator = "sky", progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render_to_file(
@@ -486,6 +489,7 @@ impl Sky {
         turn_deg: f64,
         ground: &str,
         sun_disc: bool,
+        moon_disc: bool,
         scale: &str,
         color_space: &str,
         gamut: &str,
@@ -500,7 +504,7 @@ impl Sky {
     ) -> PyResult<()> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings =
-            probe_settings(width, [projection, rows, extent, ground], turn_deg, sun_disc, [scale, color_space, gamut])?;
+            probe_settings(width, [projection, rows, extent, ground], turn_deg, [sun_disc, moon_disc], [scale, color_space, gamut])?;
         let options = FileOptions {
             half: half.map_or(Ok(Half::Off), read_half)?,
             exposure_stops,

@@ -49,16 +49,28 @@ def extension(wheel, tmp_path_factory):
     return archive
 
 
+@pytest.fixture(scope="session")
+def host_of(request, tmp_path_factory):
+    """A function that returns the Blender of a version, with the extension installed from its zip."""
+    found = {}
+
+    def make(version):
+        if version not in found:
+            hosts.python_of(version)
+            extension = request.getfixturevalue("extension")
+            host = Host(version, tmp_path_factory.mktemp(f"blender{version}"))
+            answer = host.run("steps.install", archive=str(extension))
+            assert answer["version"].startswith(version)
+            found[version] = host
+        return found[version]
+
+    return make
+
+
 @pytest.fixture(scope="session", params=hosts.VERSIONS)
-def host(request, tmp_path_factory):
+def host(request, host_of):
     """Each Blender in turn, with the extension installed from its zip."""
-    hosts.python_of(request.param)
-    extension = request.getfixturevalue("extension")
-    resources = tmp_path_factory.mktemp(f"blender{request.param}")
-    host = Host(request.param, resources)
-    answer = host.run("steps.install", archive=str(extension))
-    assert answer["version"].startswith(request.param)
-    return host
+    return host_of(request.param)
 
 
 @dataclass(frozen=True)

@@ -48,6 +48,27 @@ CHANGED = {
 }
 
 
+# Times in each spelling that the command line takes, with the key `zone` after " in ".
+TIMES = (
+    "2024-02-29T06:30",
+    "2024-02-29 06:30",
+    "2024-02-29T06",
+    "2024-02-29T06:30:15-03:30",
+    "2024-02-29T06:30+02",
+    "2024-02-29T06:30Z",
+    "2024-02-29T06:30[Asia/Tokyo]",
+    "2005-06-21T13:00Z[Europe/Stockholm]",
+    "2005-06-21T13:00Z in Europe/Stockholm",
+    "2005-06-21T13:00 in Asia/Tokyo",
+    # The first and the second of an hour that comes twice.
+    "2005-10-30T02:30+02:00[Europe/Stockholm]",
+    "2005-10-30T02:30+01:00[Europe/Stockholm]",
+    # Offsets that the panel cannot hold.
+    "1850-06-21T12:00:00+01:12:12",
+    "2005-06-21T12:00+18:00",
+)
+
+
 def round_trip(path):
     """Export all settings, reset them, import them again; tell what the configuration says and which settings differ."""
     scene = set_up(**CHANGED)
@@ -72,8 +93,9 @@ def offset_times():
     settings = scene.skyprobe
     configuration = part("configuration")
     answer = {}
-    for text in ("2024-02-29T06:30", "2024-02-29T06:30:15-03:30", "2024-02-29T06:30Z", "2024-02-29T06:30[Asia/Tokyo]"):
-        configuration.to_settings({"time": text}, settings)
+    for text in TIMES:
+        time, _, zone = text.partition(" in ")
+        configuration.to_settings({"time": time, **({"zone": zone} if zone else {})}, settings)
         answer[text] = [settings.zone_mode, settings.zone_name, round(settings.utc_offset, 3), part("values").time(settings)]
     return answer
 
@@ -112,6 +134,37 @@ def own():
     }
 
 
+def told():
+    """Import a configuration with all that Blender does without; return what is told of it."""
+    scene = set_up()
+    content = {
+        "place": "Lund, Sweden",
+        "time": "2005-03-27T02:30",
+        "tolerance": 0.01,
+        "probe": {"width": 512, "rows": "corner", "turn_deg": 90.0, "scale": "mitsuba", "color_space": "acescg", "gamut": "keep"},
+        "file": {"half": "scale", "exposure_stops": 1.0, "operator": "aces", "layers": True},
+        "output": ["sky.exr"],
+    }
+    notes = part("configuration").to_settings(content, scene.skyprobe)
+    return {"notes": notes, "width": scene.skyprobe.width, "latitude": float(np.degrees(scene.skyprobe.latitude)), "hour": scene.skyprobe.hour}
+
+
+def dumped(path):
+    """Import what --dump-config wrote into a scene with other layers and a filter; tell the settings that then count, and what was told."""
+    scene = set_up(**CHANGED)
+    with open(path, encoding="utf-8") as file:
+        notes = part("configuration").to_settings(json.load(file), scene.skyprobe)
+    values = part("values")
+    return {
+        "notes": notes,
+        "layers": values.layers(scene.skyprobe),
+        "filter": values.polarising_filter(scene.skyprobe),
+        "air": values.air(scene.skyprobe),
+        "place": values.place(scene.skyprobe),
+        "time": values.time(scene.skyprobe),
+    }
+
+
 def refused(folder):
     """Import files that make no sense; tell the messages and whether a setting changed."""
     scene = set_up(month=5, preset="hazy")
@@ -125,6 +178,18 @@ def refused(folder):
         "a latitude too far": '{"time": "2025-01-01T00:00", "latitude": 95}',
         "no such date": '{"time": "2025-02-30T00:00"}',
         "two amounts of haze, one negative": '{"time": "2025-01-01T00:00", "atmosphere": {"aod550": -1}}',
+        "another model": '{"model": "preetham"}',
+        "another theory of the Sun": '{"sun_model": "thesis"}',
+        "a Sun that is put": '{"sun": {"altitude_deg": 30, "azimuth_deg": 180}}',
+        "another projection": '{"probe": {"projection": "fisheye"}}',
+        "the upper half": '{"probe": {"extent": "upper"}}',
+        "a mirrored ground": '{"probe": {"ground": "mirrored"}}',
+        "light without polarisation": '{"atmosphere": {"polarisation": false}}',
+        "chosen wavelengths": '{"atmosphere": {"wavelengths_nm": [500, 600]}}',
+        "a place twice": '{"place": "Lund, Sweden", "latitude": 10}',
+        "two amounts of haze": '{"atmosphere": {"aod550": 0.1, "turbidity": 3}}',
+        "a key that is there twice": '{"atmosphere": {"preset": "fog", "preset": "clear"}}',
+        "no such zone": '{"time": "2025-06-21T13:00[Nowhere/Atlantis]"}',
         "not UTF-8": "\udcff",
     }.items():
         path = Path(folder) / "bad.json"

@@ -139,13 +139,18 @@ def pixels_of(image):
 
 
 def keep_as_file(folder):
-    """Render a probe that is kept as a file, before and after the .blend has a place."""
+    """Render probes that are kept as files, before and after the .blend has a place: of one minute with two airs, and the first again."""
     scene = set_up(storage="FILE", directory="//")
     message = error_of(bpy.ops.skyprobe.render)
     bpy.ops.wm.save_as_mainfile(filepath=str(Path(folder) / "scene.blend"))
-    bpy.ops.skyprobe.render()
-    image = scene.skyprobe.image
-    return {"unsaved": message, "filepath": image.filepath_raw, "packed": image.packed_file is not None, "size": list(image.size)}
+    rendered = []
+    for preset in ("clear", "desert", "clear"):
+        scene.skyprobe.preset = preset
+        bpy.ops.skyprobe.render()
+        image = scene.skyprobe.image
+        mean = float(pixels_of(image).mean(dtype=np.float64))
+        rendered.append({"filepath": image.filepath_raw, "packed": image.packed_file is not None, "size": list(image.size), "mean": mean})
+    return {"unsaved": message, "rendered": rendered}
 
 
 def error_of(operator):
@@ -327,23 +332,6 @@ def white_plane(altitude_deg, width, sun_in_map, samples):
     sky = light_with_sun(scene, altitude_deg, 200.0, width, sun_in_map)
     picture = picture_of(scene, samples)
     probe = sky.render(width=width, scale="blender", color_space="lin_rec709", sun_disc=True)
-    return {
-        "radiance": picture.mean(axis=(0, 1), dtype=np.float64).tolist(),
-        "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist(),
-        "reflectance": data["materials"]["white"]["reflectance"],
-    }
-
-
-def white_plane_in_eevee():
-    """Return what white_plane does, rendered by EEVEE with the Sun as a lamp."""
-    data = load_scene()
-    scene = set_up(["plane"], "top_camera")
-    scene.render.resolution_x = scene.render.resolution_y = 8
-    sky = light_with_sun(scene, 40.0, 200.0, 256, sun_in_map=False)
-    scene.render.engine = "BLENDER_EEVEE_NEXT" if bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
-    scene.eevee.taa_render_samples = 4
-    picture = picture_of(scene, 1)
-    probe = sky.render(width=256, scale="blender", color_space="lin_rec709", sun_disc=True)
     return {
         "radiance": picture.mean(axis=(0, 1), dtype=np.float64).tolist(),
         "irradiance": analysis.horizontal_irradiance(np.asarray(probe.pixels), "centre").tolist(),

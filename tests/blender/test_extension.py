@@ -70,9 +70,12 @@ def test_the_operator_lights_a_scene_and_gives_the_old_world_back(host, sun_mode
 def test_a_probe_can_be_kept_beside_the_blend(host, tmp_path):
     answer = host.run("steps.keep_as_file", folder=str(tmp_path))
     assert "must be absolute until the .blend is saved" in answer["unsaved"]
-    (file,) = tmp_path.glob("*.exr")
-    assert answer["filepath"] == f"//{file.name}"
-    assert answer["size"] == [256, 128] and not answer["packed"]
+    clear, desert, again = answer["rendered"]
+    for probe in answer["rendered"]:
+        assert probe["size"] == [256, 128] and not probe["packed"]
+    # Another air at the same minute does not overwrite what a saved .blend shows.
+    assert {f"//{path.name}" for path in tmp_path.glob("*.exr")} == {clear["filepath"], desert["filepath"]}
+    assert clear == again and clear["filepath"] != desert["filepath"] and abs(clear["mean"] / desert["mean"] - 1.0) > 0.01
 
 
 def test_mistakes_are_told_in_a_line_and_change_nothing(host, tmp_path):

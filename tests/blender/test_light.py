@@ -6,6 +6,11 @@ import numpy as np
 import pytest
 from scene_geometry import angle_between_azimuths_deg
 
+from blender import hosts
+
+# EEVEE compiles its shaders anew in each process, which takes software some ten seconds.
+NEWEST = pytest.mark.parametrize("host", hosts.VERSIONS[-1:], indirect=True)
+
 
 @pytest.mark.parametrize("sun_in_map", [False, True], ids=["lamp", "map"])
 def test_the_poles_shadow_points_away_from_the_sun(host, sun_in_map):
@@ -29,12 +34,46 @@ def test_a_white_plane_radiates_the_irradiance_of_the_probe_over_pi(host, altitu
     assert np.array(answer["radiance"]) == pytest.approx(expected, rel=0.01)
 
 
-def test_eevee_counts_the_sun_once(host):
-    answer = host.run("steps.white_plane_in_eevee")
-    expected = np.array(answer["irradiance"]) * answer["reflectance"] / math.pi
-    # EEVEE keeps four numbers of the sky's light, good to some percent. Without the Sun about a quarter would be left, with two of them
-    # nearly twice as much.
-    assert np.array(answer["radiance"]) == pytest.approx(expected, rel=0.15)
+def test_eevee_has_the_sun_once_as_a_lamp_and_in_the_map(host):
+    high, low = host.run("eevee_steps.white_plane", altitudes_deg=[40.0, 5.0])
+    expected = np.array(high["irradiance"]) * high["reflectance"] / math.pi
+    # EEVEE keeps four numbers of the sky's light, good to some percent under a high Sun. Without the Sun about a quarter would be left, with
+    # two of them nearly twice as much.
+    assert np.array(high["lamp"]) == pytest.approx(expected, rel=0.15)
+    for answer in (high, low):
+        print(f"lamp {answer['lamp']}, map {answer['map']}")
+        assert np.array(answer["map"]) == pytest.approx(answer["lamp"], rel=0.02)
+
+
+def test_the_sun_of_the_map_throws_shadows_in_eevee_and_turns_with_north(host):
+    # Sun at azimuth 200, north 30 degrees clockwise of +Y.
+    for north, shadow in host.run("eevee_steps.shadows", norths_deg=[0.0, 30.0]):
+        assert angle_between_azimuths_deg(shadow, 200.0 + north + 180.0) < 0.5, f"north {north}: {shadow}"
+
+
+@NEWEST
+def test_the_camera_sees_the_disc_of_the_map_in_eevee_and_not_the_wider_one_that_lights(host):
+    answer = host.run("eevee_steps.look_at_the_sun")
+    # Pixels of a tenth of a degree: 22 of the disc, some more of the map's filter. The disc that lights has some hundred.
+    assert 10 <= answer["bright"] < 80, answer
+    assert answer["brightest"] > 10000.0
+
+
+@NEWEST
+def test_a_sequence_with_the_sun_in_the_map_is_right_in_eevee_and_leaves_nothing(host, tmp_path):
+    answer = host.run("eevee_steps.sequence", folder=str(tmp_path))
+    assert len(answer["lamp"]) == 3
+    assert answer["map"] == pytest.approx(answer["lamp"], rel=0.03)
+    assert answer["lamp"][0] > 1.5 * answer["lamp"][2], "the Sun sinks"
+    assert answer["curves_left"] == [] and answer["nodes_left"] == []
+
+
+@NEWEST
+def test_an_output_of_ones_own_for_eevee_does_not_hide_the_sky(host):
+    answer = host.run("eevee_steps.own_output")
+    assert answer["LAMP"] == pytest.approx(answer["plain"], rel=1e-3)
+    assert answer["MAP"] == pytest.approx(answer["plain"], rel=0.02)
+    assert answer["LAMP again"] == pytest.approx(answer["plain"], rel=1e-3)
 
 
 def test_lamp_and_disc_give_the_same_light(host):

@@ -34,9 +34,44 @@ def test_a_configuration_goes_out_and_comes_back_whole(host, tmp_path):
 def test_times_of_each_spelling_are_understood(host):
     assert host.run("preset_steps.offset_times") == {
         "2024-02-29T06:30": ["PLACE", "Europe/Stockholm", 0.0, "2024-02-29T06:30:00"],
+        "2024-02-29 06:30": ["PLACE", "Europe/Stockholm", 0.0, "2024-02-29T06:30:00"],
+        "2024-02-29T06": ["PLACE", "Europe/Stockholm", 0.0, "2024-02-29T06:00:00"],
+        "2024-02-29T06:30+02": ["OFFSET", "Europe/Stockholm", 2.0, "2024-02-29T06:30:00+02:00"],
         "2024-02-29T06:30:15-03:30": ["OFFSET", "Europe/Stockholm", -3.5, "2024-02-29T06:30:15-03:30"],
         "2024-02-29T06:30Z": ["OFFSET", "Europe/Stockholm", 0.0, "2024-02-29T06:30:00+00:00"],
         "2024-02-29T06:30[Asia/Tokyo]": ["NAME", "Asia/Tokyo", 0.0, "2024-02-29T06:30:00[Asia/Tokyo]"],
+        "2005-06-21T13:00Z[Europe/Stockholm]": ["NAME", "Europe/Stockholm", 0.0, "2005-06-21T15:00:00[Europe/Stockholm]"],
+        "2005-06-21T13:00Z in Europe/Stockholm": ["NAME", "Europe/Stockholm", 0.0, "2005-06-21T15:00:00[Europe/Stockholm]"],
+        "2005-06-21T13:00 in Asia/Tokyo": ["NAME", "Asia/Tokyo", 0.0, "2005-06-21T13:00:00[Asia/Tokyo]"],
+        "2005-10-30T02:30+02:00[Europe/Stockholm]": ["NAME", "Europe/Stockholm", 0.0, "2005-10-30T02:30:00[Europe/Stockholm]"],
+        "2005-10-30T02:30+01:00[Europe/Stockholm]": ["OFFSET", "Europe/Stockholm", 1.0, "2005-10-30T02:30:00+01:00"],
+        "1850-06-21T12:00:00+01:12:12": ["OFFSET", "Europe/Stockholm", 1.2, "1850-06-21T11:59:48+01:12"],
+        "2005-06-21T12:00+18:00": ["OFFSET", "Europe/Stockholm", 14.0, "2005-06-21T08:00:00+14:00"],
+    }
+
+
+def test_what_blender_does_without_is_told(host):
+    answer = host.run("preset_steps.told")
+    notes = "\n".join(answer["notes"])
+    for fragment in (
+        "Lund", "2005-03-27T02:30:00 does not exist", "tolerance = 0.01", "probe.rows = 'corner'", "probe.turn_deg = 90.0", "probe.scale = 'mitsuba'", "probe.color_space = 'acescg'",
+        "probe.gamut = 'keep'", "file.half = 'scale'", "file.exposure_stops = 1.0", "file.operator = 'aces'", "file.layers = True", "output = ['sky.exr']",
+    ):
+        assert fragment in notes, fragment
+    assert answer["width"] == 512 and answer["latitude"] == pytest.approx(55.706, abs=1e-3) and answer["hour"] == pytest.approx(3.5)
+
+
+def test_what_the_command_line_dumps_takes_the_place_of_all_settings(host, tmp_path):
+    path = tmp_path / "dumped.json"
+    path.write_text(skyprobe("render", "--lat", "55.71", "--lon", "13.19", "--time", "2005-06-21 13:00", "-o", "x.exr", "--dump-config"), encoding="utf-8")
+    answer = host.run("preset_steps.dumped", path=str(path))
+    assert answer == {
+        "notes": ["output = ['x.exr']: no file is written here"],
+        "layers": {},
+        "filter": None,
+        "air": {"preset": "clear", "quality": "standard"},
+        "place": {"latitude": 55.71, "longitude": 13.19, "elevation_m": 0.0},
+        "time": "2005-06-21T13:00:00",
     }
 
 
@@ -85,6 +120,18 @@ def test_a_file_that_makes_no_sense_changes_nothing(host, tmp_path):
         "a latitude too far": "latitude",
         "no such date": "2025-02-30",
         "two amounts of haze, one negative": "aod550 = -1",
+        "another model": "model = 'preetham'",
+        "another theory of the Sun": "sun_model = 'thesis'",
+        "a Sun that is put": "sun = ",
+        "another projection": "probe.projection = 'fisheye'",
+        "the upper half": "probe.extent = 'upper'",
+        "a mirrored ground": "probe.ground = 'mirrored'",
+        "light without polarisation": "atmosphere.polarisation = False",
+        "chosen wavelengths": "atmosphere.wavelengths_nm = [500, 600]",
+        "a place twice": "place = 'Lund, Sweden'",
+        "two amounts of haze": "atmosphere.turbidity = 3",
+        "a key that is there twice": "preset is there twice",
+        "no such zone": "Nowhere/Atlantis",
         "not UTF-8": "must be JSON",
     }
     for name, fragment in told.items():

@@ -40,7 +40,7 @@ def find_blenders():
         return [Blender("named", (named,))]
     if (ROOT / ".window" / "made").exists() and os.geteuid() == 0:
         enter = ("unshare", "--mount", HERE / "in_window_root.sh", ROOT / ".window", ROOT)
-        found.append(Blender("trixie", (*enter, "blender")))
+        found.append(Blender("sid", (*enter, "blender")))
     if installed := shutil.which("blender"):
         found.append(Blender("installed", (installed,)))
     return found

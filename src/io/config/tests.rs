@@ -133,13 +133,13 @@ fn any_probe() -> impl Strategy<Value = ProbeSettings> {
     );
     let colour = (
         prop_oneof![Just(0.0), -360.0..=360.0_f64],
-        any::<bool>(),
+        any::<[bool; 2]>(),
         select(vec![Scale::Blender, Scale::Mitsuba, Scale::Luminance]),
         select(vec![ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz]),
         select(vec![Gamut::Desaturate, Gamut::Clip, Gamut::Keep]),
     );
-    (image, colour).prop_map(|((width, projection, rows, extent, ground), (turn_deg, sun_disc, scale, color_space, gamut))| {
-        ProbeSettings { width, projection, rows, extent, turn_deg, ground, sun_disc, scale, color_space, gamut }
+    (image, colour).prop_map(|((width, projection, rows, extent, ground), (turn_deg, [sun_disc, moon_disc], scale, color_space, gamut))| {
+        ProbeSettings { width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut }
     })
 }
 
