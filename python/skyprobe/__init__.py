@@ -53,6 +53,7 @@ from ._core import (
     SolarEclipse,
     SunEvents,
     __version__,
+    check_files,
 )
 
 __all__ = [
@@ -75,5 +76,6 @@ __all__ = [
     "SolarEclipse",
     "SunEvents",
     "__version__",
+    "check_files",
     "places",
 ]

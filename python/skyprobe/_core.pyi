@@ -69,6 +69,7 @@ __all__ = [
     "ToneReport",
     "__version__",
     "auto_exposure",
+    "check_files",
     "civil_time",
     "elevation_m",
     "format_coordinates",
@@ -1027,6 +1028,7 @@ class Probe:
         half: bool | Literal["off", "refuse", "scale"] | None = None,
         exposure_stops: float = 0.0,
         operator: _Operator = "sky",
+        progress: _Progress | None = None,
     ) -> None:
         """Write the probe; the file appears whole or not at all.
 
@@ -1041,6 +1043,8 @@ class Probe:
             Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
         operator
             Tone mapping operator of a PNG, as in ``skyprobe.post.tone_map``.
+        progress
+            Called with stage and fraction; returning False raises Cancelled, and there is no file.
         """
 
     def irradiance(self, normal: ArrayLike | None = None) -> tuple[float, float, float]:
@@ -1269,6 +1273,18 @@ def civil_time(time: str, latitude: float, longitude: float, zone: str | None = 
         Longitude, -180 to 180. [degrees]
     zone
         IANA time zone instead of that of the place.
+    """
+
+def check_files(inputs: Sequence[str | os.PathLike[str]], outputs: Sequence[str | os.PathLike[str]]) -> None:
+    """Check, before any work, that files can be written, and that none is written over what is read or written already.
+
+    Parameters
+    ----------
+    inputs
+        Files that will be read.
+    outputs
+        Files that will be written: each must be in a folder that is there, must not be read-only, and must be neither an input nor another output,
+        however they are spelt (relative, through links, in another case where the system does not tell cases apart).
     """
 
 def run_command_line(arguments: Sequence[str]) -> int:

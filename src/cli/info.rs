@@ -6,7 +6,7 @@ mod text;
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
 use super::options::{ConfigOptions, PlaceOptions};
-use super::{say, terminal};
+use super::{files, say, terminal};
 use crate::ephemeris::{Body, MoonPhase, RiseAndSet, SunEvents, Target, next_moon_phases, rise_and_set, sun_events};
 use crate::error::Result;
 use crate::io::Config;
@@ -52,6 +52,7 @@ pub struct Options {
 
 /// Prints the report.
 pub fn run(options: &Options) -> Result<()> {
+    files::check(options.config.input().as_slice(), &[])?;
     let mut config = options.config.read()?;
     options.place.apply(&mut config)?;
     options.air.apply(&mut config)?;

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 failed while working (such as a full disk), 2 wrong input (one line says which), 130 cancelled.
 
 mod air_options;
+mod files;
 mod glare;
 mod info;
 mod night_options;
@@ -49,6 +50,7 @@ Exit codes: 0 done, 1 failed while working, 2 wrong input, 130 cancelled.
 ///
 /// Results go to the standard output; an error is one line on the standard error.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    terminal::handle_signals();
     let outcome = match Cli::try_parse_from(arguments) {
         Ok(cli) => match cli.command {
             Command::Render(options) => render::run(&options),

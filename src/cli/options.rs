@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::io::Config;
 use crate::sky::{Atmosphere, Cache};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const PLACE: &str = "Place and time";
 const CONFIGURATION: &str = "Configuration";
@@ -12,7 +12,7 @@ const CONFIGURATION: &str = "Configuration";
 /// A configuration file, and whether to print the result of reading everything.
 #[derive(Args)]
 pub struct ConfigOptions {
-    /// JSON file to start from; options override its values.
+    /// JSON file to start from, or an .exr or .hdr of skyprobe, whose header holds what it was made from; - is the standard input. Options override its values.
     ///
     /// The keys are those that --dump-config prints, and the names of the Python arguments. An unknown key is an error.
     #[arg(long, value_name = "FILE", help_heading = CONFIGURATION)]
@@ -31,6 +31,11 @@ impl ConfigOptions {
     /// The air of `config`.
     pub fn atmosphere(&self, config: &Config) -> Result<Atmosphere> {
         Ok(config.atmosphere()?.with_cache(if self.no_cache { None } else { Cache::of_user() }))
+    }
+
+    /// The file that is read, if there is one, with the name of its parameter.
+    pub fn input(&self) -> Option<(&str, &Path)> {
+        self.config.as_deref().map(|path| ("config", path))
     }
 
     /// The configuration of the file, or the defaults.

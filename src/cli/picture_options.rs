@@ -1,7 +1,8 @@
 //! Options of commands that finish a picture: what the file does not say of it.
 
-use crate::error::{Error, Result};
-use crate::io::{PictureHints, check_output, read_picture};
+use super::files;
+use crate::error::Result;
+use crate::io::{PictureHints, read_picture};
 use crate::post::{Picture, Repairs};
 use clap::Args;
 use std::path::Path;
@@ -41,18 +42,10 @@ impl PictureOptions {
         })
     }
 
-    /// Reads `input`, after a check that `output` can be written to.
+    /// Reads `input`, after a check that `output` can be written to and is another file.
     pub fn read(&self, input: &Path, output: &Path) -> Result<Picture> {
         let hints = self.hints()?;
-        if output.is_dir() {
-            return Err(Error::input("output", output.display(), "a file, not a directory"));
-        }
-        check_output(output).map_err(|error| match error {
-            Error::File { reason, .. } => {
-                Error::input("output", output.display(), format!("a file that can be written ({reason})"))
-            }
-            other => other,
-        })?;
+        files::check(&[("input", input)], &[("output", output)])?;
         read_picture(input, &hints)
     }
 }

@@ -3,13 +3,13 @@
 use super::air_options::AirOptions;
 use super::night_options::NightCommandOptions;
 use super::options::{ConfigOptions, PlaceOptions};
-use super::{say, terminal};
+use super::{files, say, terminal};
 use crate::error::{Error, Result, check_range};
-use crate::io::{Config, Format, SampleMap, check_output, describe, json, render_to_files};
+use crate::io::{Config, Format, SampleMap, describe, each_once, json, render_with};
 use crate::probe::{MAX_WIDTH, MIN_WIDTH};
 use crate::sky::{Layer, Model, PolarisingFilter};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 const IMAGE: &str = "Image";
@@ -251,14 +251,18 @@ const SAMPLE_MAP_WIDTH: usize = 1024;
 /// Renders, and writes the files.
 pub fn run(options: &Options) -> Result<()> {
     let config = options.config()?;
+    let inputs = options.config.input();
     if options.config.dump_config {
+        files::check(inputs.as_slice(), &[])?;
         return say(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
     if config.output.is_empty() && options.sample_map.is_none() {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
-    config.output.iter().chain(&options.sample_map).try_for_each(|path| check_target(path))?;
+    let outputs = each_once(&config.output).into_iter().map(|path| ("output", path.as_path()));
+    let sample_map = options.sample_map.iter().map(|path| ("sample_map", path.as_path()));
+    files::check(inputs.as_slice(), &outputs.chain(sample_map).collect::<Vec<_>>())?;
     let is_exr = |path: &PathBuf| Format::of(path).is_ok_and(|format| format == Format::Exr);
     if options.separate_layers && !config.output.iter().any(is_exr) {
         return Err(Error::input("separate_layers", "true", "left out without an output that ends in .exr"));
@@ -267,15 +271,18 @@ pub fn run(options: &Options) -> Result<()> {
         say(&format!("place: {label} ({}, {}; {} m)", place.latitude_deg, place.longitude_deg, place.elevation_m))?;
     }
     terminal::with_progress(|progress| {
+        let mut others = Vec::new();
         if let Some(path) = &options.sample_map {
             let light = sky.filtered_light(config.light.polarising_filter.as_ref(), config.light.tolerance, progress)?;
-            SampleMap::new(&light, SAMPLE_MAP_WIDTH, progress)?.save(path)?;
-        }
-        if config.output.is_empty() {
-            return Ok(());
+            let map = SampleMap::new(&light, SAMPLE_MAP_WIDTH, progress)?;
+            if config.output.is_empty() {
+                return map.save(path, progress);
+            }
+            others.push(map.written(path, progress)?);
         }
         let metadata = describe(&sky, config.sun_model, &config.light, &config.probe);
-        render_to_files(&sky.light_by(&config.light, progress)?, &config.probe, &config.output, &config.file, &metadata, progress)
+        let light = sky.light_by(&config.light, progress)?;
+        render_with(others, (&light, &config.probe), &config.output, (&config.file, &metadata), progress)
     })?;
     let (width, height, sun) = (config.probe.width, config.probe.height(), sky.sun());
     let sun = format!("Sun at altitude {:.3} deg, azimuth {:.3} deg", sun.altitude_deg, sun.azimuth_deg);
@@ -291,15 +298,4 @@ fn layer_and_factor(text: &str) -> Result<(Layer, f64)> {
     let layer: Layer = name.trim().parse()?;
     let factor = factor.trim().parse();
     Ok((layer, factor.map_err(|_| Error::input("layer", format!("{text:?}"), "NAME=FACTOR, such as stars=2"))?))
-}
-
-/// Before any work a path that cannot be written to is wrong input, not a failure of the disk.
-fn check_target(path: &Path) -> Result<()> {
-    if path.is_dir() {
-        return Err(Error::input("output", path.display(), "a file, not a directory"));
-    }
-    check_output(path).map_err(|error| match error {
-        Error::File { reason, .. } => Error::input("output", path.display(), format!("a file that can be written ({reason})")),
-        other => other,
-    })
 }

@@ -1,22 +1,63 @@
 //! Ctrl-C and the progress bar: what a person at the terminal sees of long work.
+//!
+//! The first Ctrl-C, or polite request to end, stops long work at its next report, which it makes several times a second; whatever does not stop within
+//! [`PATIENCE`], and what is not long work, ends at once, as everything does at the second one. No unfinished file is left. Once files have got their names the work is done, and
+//! the exit code says so.
 
 use crate::error::Result;
+use crate::io::atomic;
 use crate::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
 
 /// What a shell reports for a program that was interrupted: 128 + SIGINT.
 pub const EXIT_CODE: u8 = 130;
 
-/// Set by Ctrl-C, and by a polite request to end. Without a handler the process would die while the temporary file of an output lies
-/// beside its target; with it, the work stops at the next report of progress and every temporary file is removed.
+/// How long work has to stop by itself.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Set by the first signal.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// How many calls of [`with_progress`] go on.
+static WORKING: AtomicUsize = AtomicUsize::new(0);
+
+/// Makes signals end the process tidily. Without a handler it would die while the temporary file of an output lies beside its target.
+pub fn handle_signals() {
+    atomic::begin();
+    // It can fail only if a handler of this crate is there already, from an earlier run in the same process.
+    let _ = ctrlc::set_handler(|| {
+        let is_first = !INTERRUPTED.swap(true, Ordering::SeqCst);
+        if is_first && WORKING.load(Ordering::SeqCst) > 0 {
+            std::thread::spawn(|| {
+                std::thread::sleep(PATIENCE);
+                end_unless_done();
+            });
+        } else if is_first {
+            end_unless_done();
+        } else {
+            end(atomic::abandon());
+        }
+    });
+}
+
+/// What was done is told to the end: that takes no time.
+fn end_unless_done() {
+    if !atomic::is_committed() {
+        end(atomic::abandon());
+    }
+}
+
+fn end(is_done: bool) -> ! {
+    std::process::exit(if is_done { 0 } else { EXIT_CODE.into() })
+}
 
 /// Does `work` with a progress bar, if the standard error is a terminal, until it is done or interrupted.
 pub fn with_progress<T>(work: impl FnOnce(&Progress<'_>) -> Result<T>) -> Result<T> {
-    // It can fail only if a handler of this crate is there already, from an earlier run in the same process.
-    let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
+    WORKING.fetch_add(1, Ordering::SeqCst);
+    atomic::begin();
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{prefix:>8} [{bar:40}] {percent:>3} % {elapsed}") {
         bar.set_style(style.progress_chars("=> "));
@@ -30,9 +71,11 @@ pub fn with_progress<T>(work: impl FnOnce(&Progress<'_>) -> Result<T>) -> Result
             bar.set_prefix(stage.to_string());
         }
         bar.set_position((fraction * 1000.0) as u64);
-        !INTERRUPTED.load(Ordering::Relaxed)
+        !INTERRUPTED.load(Ordering::SeqCst)
     };
-    let outcome = work(&Progress::new(&listen));
+    let progress = Progress::new(&listen);
+    let outcome = progress.report("", 0.0).and_then(|()| work(&progress));
     bar.finish_and_clear();
+    WORKING.fetch_sub(1, Ordering::SeqCst);
     outcome
 }

@@ -1,9 +1,9 @@
 //! `skyprobe tonemap`: from light to a screen.
 
 use super::picture_options::{PictureOptions, repairs_in_words};
-use super::{say, terminal};
+use super::{files, say, terminal};
 use crate::error::{Error, Result};
-use crate::io::{Depth, Format, write_sheet, write_toned};
+use crate::io::{Depth, Format, each_once, write_sheet, write_toned};
 use crate::post::tone::{Adaptation, Display, Exposure, Metering, Operator, OperatorName, Sheet, ToneMapper, ToneMapping};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -135,28 +135,26 @@ impl Options {
         }
         let within = |input: &PathBuf| output.join(Path::new(input.file_name().unwrap_or_default()).with_extension(&self.format));
         let pairs: Vec<(&Path, PathBuf)> = inputs.iter().map(|input| (input.as_path(), within(input))).collect();
-        for (k, (input, path)) in pairs.iter().enumerate() {
-            if pairs[..k].iter().any(|(_, other)| other == path) {
-                return Err(Error::input(
-                    "input",
-                    input.display(),
-                    "of another name than the others, whose place in the folder it would take",
-                ));
-            }
-            if same_file(input, path) {
-                return Err(Error::input(
-                    "output",
-                    path.display(),
-                    "another file than the input: choose another folder or format",
-                ));
-            }
+        let outputs: Vec<&PathBuf> = pairs.iter().map(|(_, path)| path).collect();
+        let kept = each_once(&outputs);
+        if let Some((_, (input, _))) =
+            pairs.iter().enumerate().find(|&(k, (_, path))| kept.get(k).is_none_or(|kept| **kept != path))
+        {
+            return Err(Error::input(
+                "input",
+                input.display(),
+                "of another name than the others, whose place in the folder it would take",
+            ));
         }
         Ok(pairs)
     }
-}
 
-fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+    /// Checks all files of all pictures: what is written first must not be what is read later.
+    fn check(&self, pairs: &[(&Path, PathBuf)]) -> Result<()> {
+        let inputs: Vec<_> = pairs.iter().map(|(input, _)| ("input", *input)).collect();
+        let outputs: Vec<_> = pairs.iter().map(|(_, output)| ("output", output.as_path())).collect();
+        files::check(&inputs, &outputs)
+    }
 }
 
 /// Reads, maps, writes, and says what was done.
@@ -172,6 +170,7 @@ pub fn run(options: &Options) -> Result<()> {
             return Err(Error::input("display", settings.display.name(), "srgb, rec709 or linear for an .exr or .hdr"));
         }
     }
+    options.check(&pairs)?;
     let frame_seconds = options.frame_seconds.unwrap_or(1.0 / 24.0);
     crate::error::check_range("frame_seconds", frame_seconds, 0.0, 1e9, "s")?;
     let mut eye = Adaptation::new(options.light_seconds, options.dark_seconds)?;
@@ -186,7 +185,7 @@ pub fn run(options: &Options) -> Result<()> {
                 settings.adaptation = Some(eye.step(metered, frame_seconds)?);
             }
             if options.compare {
-                write_sheet(&output, &Sheet::compare(&picture, &settings, progress)?, settings.display)?;
+                write_sheet(&output, &Sheet::compare(&picture, &settings, progress)?, settings.display, progress)?;
                 return Ok("all operators".to_owned());
             }
             let mapper = ToneMapper::new(&picture, &settings, progress)?;

@@ -13,7 +13,9 @@
 //! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
 //! is a default; an unknown key is an error.
 
-use super::{FileOptions, json};
+mod source;
+
+use super::{FileOptions, STANDARD, json};
 use crate::atmosphere::AirParameters;
 use crate::ephemeris::{Place, SunModel};
 use crate::error::{Error, Result, check_range};
@@ -127,24 +129,32 @@ fn yes() -> bool {
 }
 
 impl Config {
-    /// Reads and checks a configuration file.
+    /// Reads and checks a configuration file: JSON, or a picture of skyprobe (EXR, HDR), whose header holds the configuration that it was made from. `-` is
+    /// the standard input.
     ///
     /// # Errors
-    /// [`Error::Input`] if the file cannot be read, for `config`, or as [`Config::from_json`].
+    /// [`Error::Input`] if the file cannot be read or holds no configuration, for `config`, or as [`Config::from_json`], with the name of the file.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| Error::input("config", path.display(), format!("a readable file of JSON text ({error})")))?;
-        Self::from_json(&text)
+        let name = if path.as_os_str() == STANDARD { "the standard input".to_owned() } else { path.display().to_string() };
+        let in_file = |error| match error {
+            Error::Input { parameter, value, allowed } if parameter == "config" && value == "text" => {
+                Error::input("config", &name, allowed)
+            }
+            Error::Input { parameter, value, allowed } => {
+                Error::Input { parameter, value, allowed: format!("{allowed} (in {name})") }
+            }
+            other => other,
+        };
+        Self::from_json(&source::text_of(path, &name)?).map_err(in_file)
     }
 
     /// Reads and checks a configuration. What is missing has its default; place and time may be missing, too.
     ///
     /// # Errors
-    /// [`Error::Input`] for text that is not JSON, an unknown key, a value of the wrong type or out of range; it names the key with
+    /// [`Error::Input`] for text that is not JSON, an unknown key, a key that stands twice, a value of the wrong type or out of range; it names the key with
     /// its table, such as `atmosphere.turbidity`.
     pub fn from_json(text: &str) -> Result<Self> {
-        let value: Value =
-            serde_json::from_str(text).map_err(|error| Error::input("config", "text", format!("JSON ({error})")))?;
+        let value = json::parse("config", text)?;
         let document: Document = json::read("", &value)?;
         let mut config = Self {
             latitude: document.latitude,

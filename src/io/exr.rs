@@ -127,6 +127,13 @@ fn texts(shared: &ImageAttributes, own: &LayerAttributes) -> BTreeMap<String, St
     attributes
 }
 
+/// The texts and numbers of the header that `source` begins with, by name; of several parts the first. An error is a reason.
+pub(super) fn header_fields(source: impl std::io::Read) -> std::result::Result<BTreeMap<String, String>, String> {
+    let meta = ::exr::meta::MetaData::read_from_buffered(BufReader::new(source), false).map_err(|error| error.to_string())?;
+    let first = meta.headers.first().ok_or("no header")?;
+    Ok(texts(&first.shared_attributes, &first.own_attributes))
+}
+
 /// What [`read`] found.
 #[derive(Clone, Debug)]
 pub struct Picture {

@@ -7,7 +7,7 @@
 
 mod read;
 
-pub(super) use read::read_rgb;
+pub(super) use read::{header_fields, read_rgb};
 
 use super::metadata::Metadata;
 use crate::probe::ProbeSettings;

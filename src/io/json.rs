@@ -1,5 +1,9 @@
 //! Reading JSON so that every error is one line that names the key.
 
+mod strict;
+
+pub use strict::parse;
+
 use crate::error::{Error, Result};
 use serde::de::DeserializeOwned;
 use serde_json::Value;

@@ -4,8 +4,10 @@ pub mod atomic;
 pub mod config;
 mod describe;
 pub mod exr;
+mod files;
 pub mod hdr;
 pub mod json;
+mod leftovers;
 pub mod metadata;
 pub mod png;
 mod read;
@@ -17,11 +19,13 @@ mod write;
 pub use atomic::{check_writable, write_atomically};
 pub use config::Config;
 pub use describe::describe;
+pub use files::{STANDARD, check_files, each_once, is_same_file};
 pub use metadata::Metadata;
 pub use png::Depth;
 pub use read::{PictureHints, read_picture};
 pub use sample_map::SampleMap;
 pub use stream::render_to_files;
+pub(crate) use stream::render_with;
 pub use write::{write_picture, write_sheet, write_toned};
 
 use crate::error::{Error, Result};
@@ -127,15 +131,30 @@ pub fn check_output(path: impl AsRef<Path>) -> Result<()> {
 /// # Errors
 /// [`Error::Input`] for an unknown suffix, options out of range, or pixels that half floats cannot hold; [`Error::File`].
 pub fn save(path: impl AsRef<Path>, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
+    save_with_progress(path, probe, (options, metadata), &Progress::silent())
+}
+
+/// As [`save`]. Progress is the stage "write", for a PNG after "tone map".
+///
+/// # Errors
+/// As [`save`]; [`Error::Cancelled`], and there is no file.
+pub fn save_with_progress(
+    path: impl AsRef<Path>,
+    probe: &Probe,
+    (options, metadata): (&FileOptions, &Metadata),
+    progress: &Progress<'_>,
+) -> Result<()> {
     let path = path.as_ref();
     let tone = options.tone_mapping()?;
+    let format = Format::of(path)?;
+    check_writable(path)?;
     probe.validate()?;
-    match Format::of(path)? {
+    match format {
         Format::Png => {
-            let mapper = ToneMapper::new(Frame::from(probe), &tone, &Progress::silent())?;
-            write_toned(path, &mapper, Depth::Eight, &Progress::silent())
+            let mapper = ToneMapper::new(Frame::from(probe), &tone, progress)?;
+            write_toned(path, &mapper, Depth::Eight, progress)
         }
-        Format::Exr | Format::Hdr => stream::write_probe(path, probe, options, metadata),
+        Format::Exr | Format::Hdr => stream::write_probe(path, probe, (options, metadata), progress),
     }
 }
 

@@ -10,6 +10,12 @@ use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 use std::io::Write;
 use std::path::Path;
 
+/// What is compressed between two reports of progress [bytes].
+const PIECE: usize = 1 << 18;
+
+/// Chunks of the file [bytes].
+const CHUNK: usize = 1 << 20;
+
 /// Bits a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Depth {
@@ -33,20 +39,28 @@ pub(super) fn write_mapped(
 ) -> Result<()> {
     let display = mapper.display();
     match depth {
-        Depth::Eight => write_8(out, path, (mapper.width(), mapper.height()), display, &mapper.to_8_bits(progress)?),
+        Depth::Eight => write_8(out, path, (mapper.width(), mapper.height()), (display, &mapper.to_8_bits(progress)?), progress),
         Depth::Sixteen => {
-            let bytes: Vec<u8> = mapper.to_16_bits(progress)?.into_iter().flat_map(u16::to_be_bytes).collect();
-            write(out, path, (mapper.width(), mapper.height()), (display, BitDepth::Sixteen), &bytes)
+            let codes = mapper.to_16_bits(progress)?;
+            let bytes = |codes: &[u16]| codes.iter().flat_map(|code| code.to_be_bytes()).collect::<Vec<u8>>();
+            let pieces = codes.chunks(PIECE / 2).map(bytes);
+            write(out, path, (mapper.width(), mapper.height()), (display, BitDepth::Sixteen), pieces, progress)
         }
     }
 }
 
-/// Writes a picture of 8 bits a channel, row-major (height, width, 3); `path` is only for messages.
+/// Writes a picture of 8 bits a channel, row-major (height, width, 3); `path` is only for messages. Progress is the stage "write".
 ///
 /// # Errors
-/// [`Error::File`].
-pub(super) fn write_8(out: &mut impl Write, path: &Path, size: (usize, usize), display: Display, pixels: &[u8]) -> Result<()> {
-    write(out, path, size, (display, BitDepth::Eight), pixels)
+/// [`Error::File`], [`Error::Cancelled`].
+pub(super) fn write_8(
+    out: &mut impl Write,
+    path: &Path,
+    size: (usize, usize),
+    (display, pixels): (Display, &[u8]),
+    progress: &Progress,
+) -> Result<()> {
+    write(out, path, size, (display, BitDepth::Eight), pixels.chunks(PIECE), progress)
 }
 
 fn write(
@@ -54,7 +68,8 @@ fn write(
     path: &Path,
     (width, height): (usize, usize),
     (display, depth): (Display, BitDepth),
-    bytes: &[u8],
+    pieces: impl ExactSizeIterator<Item = impl AsRef<[u8]>>,
+    progress: &Progress,
 ) -> Result<()> {
     let failed = |error: png::EncodingError| Error::file(path, error);
     let mut encoder = Encoder::new(out, width as u32, height as u32);
@@ -69,7 +84,14 @@ fn write(
         // RGB, full range.
         writer.write_chunk(png::chunk::ChunkType(*b"cICP"), &[primaries, transfer, 0, 1]).map_err(failed)?;
     }
-    writer.write_image_data(bytes).map_err(failed)?;
+    // By pieces: all at once cannot be stopped, and takes seconds.
+    let mut stream = writer.stream_writer_with_size(CHUNK).map_err(failed)?;
+    let count = pieces.len() as f64;
+    for (k, piece) in pieces.enumerate() {
+        progress.report("write", k as f64 / count)?;
+        stream.write_all(piece.as_ref()).map_err(|error| Error::file(path, error))?;
+    }
+    stream.finish().map_err(failed)?;
     writer.finish().map_err(failed)
 }
 

@@ -113,11 +113,11 @@ impl RowFile {
         Ok(())
     }
 
-    /// Completes the file and puts it in its place.
+    /// Completes the file, which then waits for its name.
     ///
     /// # Errors
-    /// [`Error::File`].
-    pub fn finish(mut self) -> Result<()> {
+    /// [`Error::File`], [`Error::Cancelled`].
+    pub fn finish(mut self, progress: &Progress<'_>) -> Result<Pending> {
         let failed = |error| Error::file(&self.path, error);
         match &self.encoder {
             Encoder::Exr(packing) => {
@@ -130,12 +130,11 @@ impl RowFile {
             Encoder::Hdr { .. } => {}
             Encoder::Png => {
                 let probe = Probe::new(std::mem::take(&mut self.pixels), self.settings.clone())?;
-                let mapper = ToneMapper::new(Frame::from(&probe), &self.tone, &Progress::silent())?;
-                png::write_mapped(&mut self.out, &self.path, &mapper, png::Depth::Eight, &Progress::silent())?;
+                let mapper = ToneMapper::new(Frame::from(&probe), &self.tone, progress)?;
+                png::write_mapped(&mut self.out, &self.path, &mapper, png::Depth::Eight, progress)?;
             }
         }
         self.out.flush().map_err(failed)?;
-        drop(self.out);
-        self.pending.commit()
+        Ok(self.pending)
     }
 }

@@ -1,6 +1,7 @@
 //! A picture of where the light of a sky was gathered, as in the thesis's figures 11 to 13: white points on the darkened sky.
 
-use super::{Format, png, write_atomically};
+use super::atomic::{Pending, commit};
+use super::{Format, png};
 use crate::error::{Error, Result};
 use crate::post::tone::{Display, Frame, ToneMapper, ToneMapping};
 use crate::probe::{self, ProbeSettings};
@@ -47,13 +48,19 @@ impl SampleMap {
         Ok(Self { width, height, pixels })
     }
 
-    /// Writes it as PNG, whole or not at all.
+    /// Writes it as PNG, whole or not at all. Progress is the stage "write".
     ///
     /// # Errors
-    /// [`Error::Input`] for a name that does not end in .png, [`Error::File`].
-    pub fn save(&self, path: &Path) -> Result<()> {
+    /// [`Error::Input`] for a name that does not end in .png, [`Error::File`], [`Error::Cancelled`].
+    pub fn save(&self, path: &Path, progress: &Progress) -> Result<()> {
+        commit(vec![self.written(path, progress)?], progress)
+    }
+
+    /// The file, which waits for its name.
+    pub(crate) fn written(&self, path: &Path, progress: &Progress) -> Result<Pending> {
         Self::check_name(path)?;
-        write_atomically(path, |out| png::write_8(out, path, (self.width, self.height), Display::Srgb, &self.pixels))
+        let content = (Display::Srgb, &self.pixels[..]);
+        Pending::written(path, |out| png::write_8(out, path, (self.width, self.height), content, progress))
     }
 
     /// Checks that `path` names a PNG.

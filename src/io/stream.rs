@@ -1,8 +1,9 @@
 //! From light to files without the picture in memory: a band of rows is rendered and packed while the one before is being written.
 
+use super::atomic::{Pending, commit};
 use super::exr::Largest;
 use super::row_file::RowFile;
-use super::{FileOptions, Metadata};
+use super::{FileOptions, Metadata, each_once};
 use crate::error::Result;
 use crate::probe::{Painter, Probe, ProbeSettings};
 use crate::progress::Progress;
@@ -23,9 +24,10 @@ fn band_rows(width: usize, pictures: usize) -> usize {
     BLOCK_ROWS * for_threads.max(least).min(most).max(1)
 }
 
-/// Renders the light of `sky` into the files `paths`, each in the format that its suffix names, whole or not at all. The pixels are those of
+/// Renders the light of `sky` into the files `paths`, each in the format that its suffix names: all of them whole, or none at all. One that is named twice is written once. The pixels are those of
 /// [`render`](crate::probe::render), but only a band of rows of them is in memory at a time: but for PNG, whose exposure needs the whole picture.
-/// Half floats are rendered twice, because the first rows depend on the brightest pixel. Progress is the stage "render".
+/// Half floats are rendered twice, because the first rows depend on the brightest pixel. Progress is the stage "render", then
+/// "write".
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) for settings that no image can have, an unknown suffix, options out of range, or pixels that half
@@ -38,7 +40,19 @@ pub fn render_to_files<P: AsRef<Path>>(
     metadata: &Metadata,
     progress: &Progress,
 ) -> Result<()> {
+    render_with(Vec::new(), (sky, settings), paths, (options, metadata), progress)
+}
+
+/// As [`render_to_files`]; the files `others`, which are written already, get their names together with these.
+pub(crate) fn render_with<P: AsRef<Path>>(
+    others: Vec<Pending>,
+    (sky, settings): (&dyn SkyLight, &ProbeSettings),
+    paths: &[P],
+    (options, metadata): (&FileOptions, &Metadata),
+    progress: &Progress,
+) -> Result<()> {
     settings.validate()?;
+    let whole = progress;
     let measured = Mutex::new(None);
     let largest = || {
         let mut measured = measured.lock().unwrap_or_else(PoisonError::into_inner);
@@ -50,14 +64,15 @@ pub fn render_to_files<P: AsRef<Path>>(
     };
     let layers = if options.layers { sky.layers() } else { Vec::new() };
     let names: Vec<&'static str> = layers.iter().map(|(name, _)| *name).collect();
-    let files = paths.iter().map(|path| RowFile::create(path.as_ref(), settings, &names, (options, metadata), largest));
+    let files = each_once(paths).into_iter();
+    let files = files.map(|path| RowFile::create(path.as_ref(), settings, &names, (options, metadata), largest));
     let files = files.collect::<Result<Vec<_>>>()?;
     let twice = measured.lock().unwrap_or_else(PoisonError::into_inner).is_some();
     let second_half = |stage: &str, fraction: f64| progress.report(stage, 0.5 + 0.5 * fraction).is_ok();
     let rest = Progress::new(&second_half);
     let progress = if twice { &rest } else { progress };
     if layers.is_empty() {
-        return write_bands(&[Painter::new(sky, settings, progress)?], files);
+        return write_bands(&[Painter::new(sky, settings, progress)?], files, others, whole);
     }
     let count = layers.len() as f64;
     let shares: Vec<_> = (0..layers.len())
@@ -65,11 +80,11 @@ pub fn render_to_files<P: AsRef<Path>>(
         .collect();
     let shares: Vec<Progress> = shares.iter().map(|share| Progress::new(share)).collect();
     let painters = layers.iter().zip(&shares).map(|((_, light), share)| Painter::new(&**light, settings, share));
-    write_bands(&painters.collect::<Result<Vec<_>>>()?, files)
+    write_bands(&painters.collect::<Result<Vec<_>>>()?, files, others, whole)
 }
 
-/// Writes the picture of one painter, or the sum of several and, in files that have layers, each.
-fn write_bands(painters: &[Painter], mut files: Vec<RowFile>) -> Result<()> {
+/// Writes the picture of one painter, or the sum of several and, in files that have layers, each. All files get their names in the end, after `others`.
+fn write_bands(painters: &[Painter], mut files: Vec<RowFile>, mut others: Vec<Pending>, progress: &Progress) -> Result<()> {
     let (width, height) = painters[0].size();
     let pictures = if painters.len() == 1 { 1 } else { painters.len() + 1 };
     let encoders: Vec<_> = files.iter().map(RowFile::encoder).collect();
@@ -99,19 +114,30 @@ fn write_bands(painters: &[Painter], mut files: Vec<RowFile>) -> Result<()> {
         Ok(())
     };
     in_order(bands(width, height, pictures), make, write)?;
-    files.into_iter().try_for_each(RowFile::finish)
+    for file in files {
+        others.push(file.finish(progress)?);
+    }
+    commit(others, progress)
 }
 
-/// Writes `probe` to `path`; see [`save`](super::save).
-pub(super) fn write_probe(path: &Path, probe: &Probe, options: &FileOptions, metadata: &Metadata) -> Result<()> {
+/// Writes `probe` to `path`; see [`save_with_progress`](super::save_with_progress).
+pub(super) fn write_probe(
+    path: &Path,
+    probe: &Probe,
+    (options, metadata): (&FileOptions, &Metadata),
+    progress: &Progress,
+) -> Result<()> {
     let stride = 3 * probe.width;
     let largest = || Ok(Largest::of(0, &probe.pixels));
     let mut file = RowFile::create(path, &probe.settings, &[], (options, metadata), largest)?;
     let encoder = file.encoder();
     let values = |rows: &Range<usize>| &probe.pixels[stride * rows.start..stride * rows.end];
-    let make = |rows: Range<usize>| Ok((encoder.encode(rows.start, &[values(&rows)]), rows));
+    let make = |rows: Range<usize>| {
+        progress.report("write", rows.start as f64 / probe.height as f64)?;
+        Ok((encoder.encode(rows.start, &[values(&rows)]), rows))
+    };
     in_order(bands(probe.width, probe.height, 1), make, |(pieces, rows)| file.append(values(&rows), &pieces))?;
-    file.finish()
+    commit(vec![file.finish(progress)?], progress)
 }
 
 /// The value of greatest magnitude in the whole picture.

@@ -19,6 +19,7 @@ mod tone;
 mod work;
 
 use pyo3::prelude::*;
+use std::path::{Path, PathBuf};
 
 /// The compiled part of skyprobe.
 #[pymodule]
@@ -63,8 +64,27 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<tone::Adaptation>()?;
     module.add_function(wrap_pyfunction!(tone::tone_map, module)?)?;
     module.add_function(wrap_pyfunction!(tone::auto_exposure, module)?)?;
+    module.add_function(wrap_pyfunction!(check_files, module)?)?;
     #[cfg(feature = "cli")]
     module.add_function(wrap_pyfunction!(run_command_line, module)?)?;
+    Ok(())
+}
+
+/// Check, before any work, that files can be written, and that none is written over what is read or written already.
+///
+/// Parameters
+/// ----------
+/// inputs
+///     Files that will be read.
+/// outputs
+///     Files that will be written: each must be in a folder that is there, must not be read-only, and must be neither an input nor another output,
+///     however they are spelt (relative, through links, in another case where the system does not tell cases apart).
+#[pyfunction]
+fn check_files(inputs: Vec<PathBuf>, outputs: Vec<PathBuf>) -> PyResult<()> {
+    let inputs: Vec<(&str, &Path)> = inputs.iter().map(|path| ("input", path.as_path())).collect();
+    let outputs: Vec<(&str, &Path)> = outputs.iter().map(|path| ("output", path.as_path())).collect();
+    crate::io::check_files(&inputs, &outputs)?;
+    outputs.iter().try_for_each(|(_, path)| crate::io::check_writable(path))?;
     Ok(())
 }
 

@@ -134,7 +134,9 @@ impl Probe {
     ///     Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
     /// operator
     ///     Tone mapping operator of a PNG, as in ``skyprobe.post.tone_map``.
-    #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0, operator = "sky"))]
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled, and there is no file.
+    #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0, operator = "sky", progress = None))]
     fn save(
         &self,
         py: Python<'_>,
@@ -142,6 +144,7 @@ impl Probe {
         half: Option<&Bound<'_, PyAny>>,
         exposure_stops: f64,
         operator: &str,
+        progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let probe = self.snapshot(py)?;
         let options = FileOptions {
@@ -150,7 +153,7 @@ impl Probe {
             operator: operator.parse()?,
             layers: false,
         };
-        work::run(py, None, |_| io::save(&path, &probe, &options, &self.metadata))
+        work::run(py, progress, |progress| io::save_with_progress(&path, &probe, (&options, &self.metadata), progress))
     }
 
     /// Irradiance of a plane: the integral of pixels times cosine, in the probe's units times sr.

@@ -20,13 +20,24 @@ const POLL: Duration = Duration::from_millis(40);
 #[derive(Default)]
 struct News {
     steps: Vec<(String, f64)>,
+    last_word: LastWord,
     finished: bool,
+}
+
+/// Before files get their names the work waits until the listener has heard all and agrees. Then nothing can be cancelled any more.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum LastWord {
+    #[default]
+    NotAsked,
+    Asked,
+    Given,
 }
 
 /// Does `work` with the interpreter released and returns what it returns.
 ///
 /// `callback(stage: str, fraction: float)` hears of each stage at least once; `False` from it raises `Cancelled`. An exception that
-/// it raises, or `KeyboardInterrupt`, cancels the work and is raised here. A panic of the work becomes a `DataError`.
+/// it raises, or `KeyboardInterrupt`, cancels the work and is raised here: then there is no file of it. Once files have their names nothing is told any more, and a signal
+/// is left to Python. A panic of the work becomes a `DataError`.
 pub fn run<T, F>(py: Python<'_>, callback: Option<&Bound<'_, PyAny>>, work: F) -> PyResult<T>
 where
     T: Send,
@@ -35,7 +46,7 @@ where
     let callback: Option<Py<PyAny>> = callback.map(|callback| callback.clone().unbind());
     let cancel = AtomicBool::new(false);
     let news = Mutex::new(News::default());
-    let wake = Condvar::new();
+    let (wake, answer) = (Condvar::new(), Condvar::new());
     let listen = |stage: &str, fraction: f64| {
         let mut news = news.lock().unwrap_or_else(PoisonError::into_inner);
         match news.steps.last_mut() {
@@ -46,20 +57,34 @@ where
         !cancel.load(Ordering::Relaxed)
     };
 
+    let last_word = || {
+        let mut news = news.lock().unwrap_or_else(PoisonError::into_inner);
+        news.last_word = LastWord::Asked;
+        wake.notify_one();
+        let _news = answer.wait_while(news, |news| news.last_word == LastWord::Asked).unwrap_or_else(PoisonError::into_inner);
+        !cancel.load(Ordering::Relaxed)
+    };
+
     let (outcome, stopped) = py.detach(|| {
         std::thread::scope(|scope| {
             let worker = scope.spawn(|| {
                 let _announce = Announce { news: &news, wake: &wake };
-                work(&Progress::new(&listen))
+                work(&Progress::with_last_word(&listen, &last_word))
             });
             let mut stopped: Option<PyErr> = None;
+            let mut settled = false;
             loop {
-                let (steps, finished) = wait(&news, &wake);
-                if stopped.is_none() {
+                let (steps, asked, finished) = wait(&news, &wake);
+                if stopped.is_none() && !settled {
                     stopped = Python::attach(|py| tell(py, callback.as_ref(), &steps)).err();
                     if stopped.is_some() {
                         cancel.store(true, Ordering::Relaxed);
                     }
+                }
+                if asked {
+                    settled = stopped.is_none();
+                    news.lock().unwrap_or_else(PoisonError::into_inner).last_word = LastWord::Given;
+                    answer.notify_one();
                 }
                 if finished {
                     break;
@@ -90,10 +115,12 @@ impl Drop for Announce<'_> {
     }
 }
 
-fn wait(news: &Mutex<News>, wake: &Condvar) -> (Vec<(String, f64)>, bool) {
+/// Steps since the last time, whether the last word is asked for, and whether the work is over.
+fn wait(news: &Mutex<News>, wake: &Condvar) -> (Vec<(String, f64)>, bool, bool) {
     let guard = news.lock().unwrap_or_else(PoisonError::into_inner);
-    let (mut guard, _) = wake.wait_timeout_while(guard, POLL, |news| !news.finished).unwrap_or_else(PoisonError::into_inner);
-    (std::mem::take(&mut guard.steps), guard.finished)
+    let is_quiet = |news: &mut News| !news.finished && news.last_word != LastWord::Asked;
+    let (mut guard, _) = wake.wait_timeout_while(guard, POLL, is_quiet).unwrap_or_else(PoisonError::into_inner);
+    (std::mem::take(&mut guard.steps), guard.last_word == LastWord::Asked, guard.finished)
 }
 
 fn tell(py: Python<'_>, callback: Option<&Py<PyAny>>, steps: &[(String, f64)]) -> PyResult<()> {

@@ -184,6 +184,14 @@ fn read_old_row(rest: &mut &[u8], row: &mut [[u8; 4]]) -> Parsed<()> {
     Ok(())
 }
 
+/// Names and values of the header that `bytes` begin with. An error is a reason.
+pub fn header_fields(bytes: &[u8]) -> Parsed<BTreeMap<String, String>> {
+    let blank = |end: &[u8]| bytes.windows(end.len()).position(|found| found == end).map(|at| at + end.len());
+    let end = blank(b"\n\n").into_iter().chain(blank(b"\n\r\n")).min().ok_or("the header does not end")?;
+    // The header as that of a picture of one pixel.
+    parse(&[&bytes[..end], b"-Y 1 +X 1\n\0\0\0\0"].concat()).map(|raw| raw.fields)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

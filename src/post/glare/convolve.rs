@@ -65,7 +65,7 @@ impl<'a> Convolution<'a> {
         let parts = progress.parts("glare", total);
         let mut unscattered = [0.0; 3];
         let mut spectrum = None;
-        let first = if kernels == 3 { self.first_channel() } else { Vec::new() };
+        let first = if kernels == 3 { self.first_channel(&parts)? } else { Vec::new() };
         for (channel, unscattered) in unscattered.iter_mut().enumerate() {
             if channel < kernels {
                 drop(spectrum.take());
@@ -97,7 +97,7 @@ impl<'a> Convolution<'a> {
             0.0
         };
         let (rows, _) = self.forward_rows(height, &source, parts)?;
-        let mut columns = self.transposed(&rows, height, height);
+        let mut columns = self.transposed(&rows, height, height, parts)?;
         drop(rows);
         self.multiply(&mut columns, kernel, parts)?;
 
@@ -157,18 +157,20 @@ impl<'a> Convolution<'a> {
     }
 
     /// Columns of `length`, the rest zero, of `count` rows of spectra.
-    fn transposed(&self, rows: &[Complex<f64>], count: usize, length: usize) -> Vec<Complex<f64>> {
+    fn transposed(&self, rows: &[Complex<f64>], count: usize, length: usize, parts: &Parts<'_>) -> Result<Vec<Complex<f64>>> {
         let frequencies = self.frequencies();
         let mut columns = vec![Complex::default(); frequencies * length];
-        columns.par_chunks_mut(TILE * length).enumerate().for_each(|(tile, columns)| {
+        columns.par_chunks_mut(TILE * length).enumerate().try_for_each(|(tile, columns)| {
+            parts.check()?;
             for y in 0..count {
                 let row = &rows[y * frequencies + tile * TILE..];
                 for (column, value) in columns.chunks_mut(length).zip(row) {
                     column[y] = *value;
                 }
             }
-        });
-        columns
+            Ok(())
+        })?;
+        Ok(columns)
     }
 
     /// Columns of the picture become columns of its convolution, before the inverse transform of rows.
@@ -195,10 +197,17 @@ impl<'a> Convolution<'a> {
     }
 
     /// The kernel's first channel, from the lower left on: where channels are the same, they need not be asked for again.
-    fn first_channel(&self) -> Vec<f32> {
+    fn first_channel(&self, parts: &Parts<'_>) -> Result<Vec<f32>> {
         let (reach_x, reach_y) = (self.reach.0 as isize, self.reach.1 as isize);
-        let rows = (-reach_y..=reach_y).into_par_iter();
-        rows.flat_map_iter(|up| (-reach_x..=reach_x).map(move |right| self.kernel.at(right, up)[0])).collect()
+        let breadth = 2 * self.reach.0 + 1;
+        let mut values = vec![0.0; breadth * (2 * self.reach.1 + 1)];
+        values.par_chunks_mut(breadth).enumerate().try_for_each(|(k, row)| {
+            parts.check()?;
+            let up = k as isize - reach_y;
+            row.iter_mut().zip(-reach_x..=reach_x).for_each(|(value, right)| *value = self.kernel.at(right, up)[0]);
+            Ok(())
+        })?;
+        Ok(values)
     }
 
     /// The transform of one channel of the kernel, of which `first` has the first or nothing, with the unscattered light that makes its sum 1.
@@ -225,7 +234,7 @@ impl<'a> Convolution<'a> {
             sum
         };
         let (rows, scattered) = self.forward_rows(height, &fill, parts)?;
-        let mut columns = self.transposed(&rows, height, height);
+        let mut columns = self.transposed(&rows, height, height, parts)?;
         drop(rows);
         let line = self.kernel.unscattered();
         let (along_x, along_y) = (line_spectrum(&line, width), line_spectrum(&line, height));

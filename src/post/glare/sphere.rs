@@ -18,7 +18,7 @@ use super::streaks::LAST_CHORD_SQUARED;
 use crate::error::{Error, Result};
 use crate::post::{Picture, View};
 use crate::probe::{Extent, LatLong, Row, Rows};
-use crate::progress::Progress;
+use crate::progress::{Parts, Progress};
 use rayon::prelude::*;
 use realfft::{RealFftPlanner, RealToComplex, num_complex::Complex};
 use std::f64::consts::PI;
@@ -29,6 +29,9 @@ const AVERAGED_WITHIN: f32 = 12.0;
 
 /// Pixels with this share of the light of the brightest pixel have streaks.
 pub const STREAKED_FROM: f64 = 1e-3;
+
+/// Sources that are spread over a row between two questions whether to go on.
+const SOURCES_PER_CHECK: usize = 16;
 
 /// Samples of a smooth kernel per distance from its source.
 const SAMPLES_PER_DISTANCE: f64 = 12.0;
@@ -95,7 +98,7 @@ pub fn apply(picture: &mut Picture, share: &[f32], scatter: &Scatter, progress: 
     // Without streaks every pixel is smooth.
     let streaked_from = if scatter.has_streaks() { STREAKED_FROM * brightest } else { f64::INFINITY };
     let sphere = Sphere { scatter, width, step: image.step(), turns, forward, streaked_from };
-    let sources = sphere.sources(picture, share, image.table());
+    let sources = sphere.sources(picture, share, image.table(), progress)?;
     if sources.is_empty() {
         return Ok([1.0; 3]);
     }
@@ -110,7 +113,7 @@ pub fn apply(picture: &mut Picture, share: &[f32], scatter: &Scatter, progress: 
     let scattered = targets
         .par_iter()
         .map(|target| {
-            let (light, sums) = sphere.gather(target, &sources, image.table());
+            let (light, sums) = sphere.gather(target, &sources, image.table(), &parts)?;
             let mut lost = lost.lock().unwrap_or_else(PoisonError::into_inner);
             lost.iter_mut().zip(&sums).for_each(|(lost, sum)| (0..3).for_each(|c| lost[c] += sum[c]));
             parts.finish_one().map(|()| light)
@@ -153,8 +156,9 @@ fn light(picture: &Picture, share: &[f32], table: &[Row], k: usize) -> f64 {
 }
 
 impl Sphere<'_> {
-    fn sources(&self, picture: &Picture, share: &[f32], table: &[Row]) -> Vec<Source> {
-        let row_sources = |row: usize| -> Vec<Source> {
+    fn sources(&self, picture: &Picture, share: &[f32], table: &[Row], progress: &Progress<'_>) -> Result<Vec<Source>> {
+        let row_sources = |row: usize| -> Result<Vec<Source>> {
+            progress.report("glare", 0.0)?;
             let range = row * self.width..(row + 1) * self.width;
             let of_kind = |has_streaks: bool| {
                 let is_in = |k: usize| share[k] > 0.0 && (light(picture, share, table, k) >= self.streaked_from) == has_streaks;
@@ -172,9 +176,10 @@ impl Sphere<'_> {
                 });
                 Some(Source { row, has_streaks, spectra })
             };
-            [false, true].into_iter().filter_map(of_kind).collect()
+            Ok([false, true].into_iter().filter_map(of_kind).collect())
         };
-        (0..picture.height).into_par_iter().flat_map_iter(row_sources).collect()
+        let rows = (0..picture.height).into_par_iter().map(row_sources).collect::<Result<Vec<_>>>()?;
+        Ok(rows.into_iter().flatten().collect())
     }
 
     fn spectrum(&self, line: &mut [f64]) -> Vec<Complex<f64>> {
@@ -185,14 +190,17 @@ impl Sphere<'_> {
     }
 
     /// What arrives in a row, (width, 3), and the share of the light of each source that does.
-    fn gather(&self, target: &Target, sources: &[Source], table: &[Row]) -> (Vec<f32>, Vec<[f64; 3]>) {
+    fn gather(&self, target: &Target, sources: &[Source], table: &[Row], parts: &Parts<'_>) -> Result<(Vec<f32>, Vec<[f64; 3]>)> {
         let frequencies = self.width / 2 + 1;
         let mut sums = Vec::with_capacity(sources.len());
         let mut arriving = vec![[Complex::<f64>::default(); 3]; frequencies];
         let mut kernels: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; self.width]);
         let mut spectra: [Vec<Complex<f64>>; 3] = std::array::from_fn(|_| self.forward[0].make_output_vec());
         let mut scratch = self.forward[0].make_scratch_vec();
-        for source in sources {
+        for (k, source) in sources.iter().enumerate() {
+            if k % SOURCES_PER_CHECK == 0 {
+                parts.check()?;
+            }
             let nearest = Pair::new(table[source.row].theta, target.row.theta).chord_squared;
             let (halvings, coloured) = if source.has_streaks && nearest < LAST_CHORD_SQUARED {
                 (0, self.fill(&table[source.row], &target.row, &mut kernels))
@@ -223,7 +231,7 @@ impl Sphere<'_> {
             }
         }
         if target.index.is_none() {
-            return (Vec::new(), sums);
+            return Ok((Vec::new(), sums));
         }
         let inverse = RealFftPlanner::<f64>::new().plan_fft_inverse(self.width);
         let mut light = vec![0.0; 3 * self.width];
@@ -239,7 +247,7 @@ impl Sphere<'_> {
             let _ = inverse.process(&mut spectrum, &mut line);
             line.iter().zip(light[c..].iter_mut().step_by(3)).for_each(|(&value, out)| *out = value as f32);
         }
-        (light, sums)
+        Ok((light, sums))
     }
 
     /// The kernel between two rows by difference of columns [sr-1], and whether its channels differ: if not, only the first is written.

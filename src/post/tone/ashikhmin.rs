@@ -84,15 +84,16 @@ impl Ashikhmin {
         let luminance = luminance_plane(frame, 1.0);
         let scales = self.largest_scale.round() as usize;
         let parts = progress.parts("tone map", scales);
-        let gaussian = |s: usize| blurred(&luminance, frame.width, super::edges(frame), 0.5 * s as f64, |_| 1.0);
+        let shape = (frame.width, super::edges(frame));
+        let gaussian = |s: usize| blurred(&luminance, shape, 0.5 * s as f64, |_| 1.0, || parts.check());
         // G_2s is the centre of a later scale.
         let mut kept = std::collections::BTreeMap::new();
         let mut chosen = luminance.clone();
         let mut growing = vec![true; luminance.len()];
         let threshold = self.threshold as f32;
         for s in 1..=scales {
-            let centre = kept.remove(&s).unwrap_or_else(|| gaussian(s));
-            let surround = gaussian(2 * s);
+            let centre = kept.remove(&s).map_or_else(|| gaussian(s), Ok)?;
+            let surround = gaussian(2 * s)?;
             let grow = |(((chosen, growing), centre), surround): (((&mut f32, &mut bool), &f32), &f32)| {
                 *growing &= (centre - surround).abs() < threshold * centre;
                 if *growing {

@@ -1,5 +1,6 @@
 //! Gaussian blur of one value a pixel, as local operators need it.
 
+use crate::error::Result;
 use rayon::prelude::*;
 
 /// What lies beyond the borders.
@@ -23,14 +24,25 @@ fn kernel(sigma: f64) -> Vec<f32> {
 }
 
 /// `plane` (row-major, `width` wide) blurred by a Gaussian with the standard deviation `sigma` along the columns and `sigma` times `stretch(row)` along the rows [pixels].
-pub fn blurred(plane: &[f32], width: usize, edges: Edges, sigma: f64, stretch: impl Fn(usize) -> f64 + Sync) -> Vec<f32> {
+/// `go_on` is asked once a row.
+///
+/// # Errors
+/// That of `go_on`.
+pub fn blurred(
+    plane: &[f32],
+    (width, edges): (usize, Edges),
+    sigma: f64,
+    stretch: impl Fn(usize) -> f64 + Sync,
+    go_on: impl Fn() -> Result<()> + Sync,
+) -> Result<Vec<f32>> {
     if sigma < 0.1 {
-        return plane.to_vec();
+        return Ok(plane.to_vec());
     }
     let height = plane.len() / width;
     let mut across = vec![0.0; plane.len()];
     let even = kernel(sigma);
-    across.par_chunks_mut(width).zip(plane.par_chunks(width)).enumerate().for_each(|(row, (out, input))| {
+    across.par_chunks_mut(width).zip(plane.par_chunks(width)).enumerate().try_for_each(|(row, (out, input))| {
+        go_on()?;
         let stretched = stretch(row);
         if stretched == 1.0 {
             blur_row(input, out, &even, edges);
@@ -38,10 +50,12 @@ pub fn blurred(plane: &[f32], width: usize, edges: Edges, sigma: f64, stretch: i
             // Wider than the row the mean of the row is all that is left.
             blur_row(input, out, &kernel((sigma * stretched).min(width as f64 / 3.0)), edges);
         }
-    });
+        Ok(())
+    })?;
     let mut out = vec![0.0; plane.len()];
     let reach = even.len() as isize - 1;
-    out.par_chunks_mut(width).enumerate().for_each(|(row, out)| {
+    out.par_chunks_mut(width).enumerate().try_for_each(|(row, out)| {
+        go_on()?;
         for offset in -reach..=reach {
             let weight = even[offset.unsigned_abs()];
             let (row, turned) = beyond(row as isize + offset, height as isize, edges);
@@ -54,8 +68,9 @@ pub fn blurred(plane: &[f32], width: usize, edges: Edges, sigma: f64, stretch: i
                 add(out, input, weight);
             }
         }
-    });
-    out
+        Ok(())
+    })?;
+    Ok(out)
 }
 
 /// The row that stands for `row`, and whether it is half a turn further.
@@ -98,13 +113,13 @@ mod tests {
     #[test]
     fn an_even_plane_stays_and_a_point_becomes_a_gaussian() {
         for edges in [Edges::Clamped, Edges::Sphere { nadir: true }, Edges::Sphere { nadir: false }] {
-            for value in blurred(&[2.5; 40 * 30], 40, edges, 4.0, |_| 1.0) {
+            for value in blurred(&[2.5; 40 * 30], (40, edges), 4.0, |_| 1.0, || Ok(())).unwrap() {
                 assert!((value - 2.5).abs() < 1e-5);
             }
         }
         let mut plane = vec![0.0; 41 * 41];
         plane[20 * 41 + 20] = 1.0;
-        let found = blurred(&plane, 41, Edges::Clamped, 3.0, |_| 1.0);
+        let found = blurred(&plane, (41, Edges::Clamped), 3.0, |_| 1.0, || Ok(())).unwrap();
         for (x, y) in [(20, 20), (22, 20), (20, 25), (24, 17)] {
             let r2 = f64::from((x - 20) * (x - 20) + (y - 20) * (y - 20));
             let expected = (-r2 / 18.0).exp() / (std::f64::consts::TAU * 9.0);
@@ -118,7 +133,7 @@ mod tests {
     fn a_sphere_has_no_seam_and_goes_on_beyond_the_zenith() {
         let mut plane = vec![0.0; 32 * 16];
         plane[3] = 1.0;
-        let found = blurred(&plane, 32, Edges::Sphere { nadir: true }, 1.5, |_| 1.0);
+        let found = blurred(&plane, (32, Edges::Sphere { nadir: true }), 1.5, |_| 1.0, || Ok(())).unwrap();
         // Symmetric about column 3 over the seam; the point's image beyond the pole lies in column 19.
         assert!((found[0] - found[6]).abs() < 1e-7 && (found[31] - found[7]).abs() < 1e-7 && found[31] > 0.0);
         assert!(found[19] > 0.01 && found[11] < 1e-3);

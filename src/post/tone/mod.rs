@@ -164,7 +164,7 @@ impl<'a> ToneMapper<'a> {
                 let scale = (1.0 / automatic) as f32;
                 mapped.luminance(move |pixel, luminance| luminance * scale * factors[pixel])
             }
-            Operator::Sky(sky) => mapped.sky(&sky, adaptation),
+            Operator::Sky(sky) => mapped.sky(&sky, adaptation, progress)?,
         };
         Ok(Self {
             width: frame.width,
@@ -334,13 +334,13 @@ impl<'a> Mapped<'a> {
         })
     }
 
-    fn sky(self, sky: &Sky, adaptation: f64) -> Row<'a> {
+    fn sky(self, sky: &Sky, adaptation: f64, progress: &Progress) -> Result<Row<'a>> {
         let curve = Curve::new(sky);
-        let Some(rods) = Rods::new(sky, adaptation) else { return self.colours(move |rgb| curve.colour(rgb)) };
-        let blurred = blurred_for_rods(&self.frame, adaptation, sky.acuity_loss);
+        let Some(rods) = Rods::new(sky, adaptation) else { return Ok(self.colours(move |rgb| curve.colour(rgb))) };
+        let blurred = blurred_for_rods(&self.frame, adaptation, sky.acuity_loss, progress)?;
         let to_xyz = self.frame.to_xyz().map(|row| row.map(|value| value as f32));
         let (from_xyz, weights) = (self.display_matrix().map(|row| row.map(|value| value as f32)), self.weights());
-        Box::new(move |row, out| {
+        Ok(Box::new(move |row, out| {
             let first = row * self.frame.width;
             for (column, (out, &pixel)) in out.as_chunks_mut::<3>().0.iter_mut().zip(self.frame.row(row)).enumerate() {
                 let xyz = exposed(&to_xyz, pixel);
@@ -351,7 +351,7 @@ impl<'a> Mapped<'a> {
                 let rgb = from_xyz.map(|row| dot(row, rods.seen(xyz, by_rods)));
                 *out = curve.colour(without_negative(rgb, weights));
             }
-        })
+        }))
     }
 }
 

@@ -57,16 +57,16 @@ impl ReinhardLocal {
         let scales = self.scales.round() as usize;
         let parts = progress.parts("tone map", scales + 1);
         // exp(-r^2 / (alpha s)^2) has a standard deviation of alpha s / sqrt 2 along an axis.
-        let at_scale =
-            |s: f64| blurred(&luminance, frame.width, super::edges(frame), s / (2.0 * 2f64.sqrt()) / 2f64.sqrt(), |_| 1.0);
-        let mut centre = at_scale(1.0);
+        let shape = (frame.width, super::edges(frame));
+        let at_scale = |s: f64| blurred(&luminance, shape, s / (2.0 * 2f64.sqrt()) / 2f64.sqrt(), |_| 1.0, || parts.check());
+        let mut centre = at_scale(1.0)?;
         parts.finish_one()?;
         let mut chosen = centre.clone();
         // Whether the scale still grows.
         let mut growing = vec![true; luminance.len()];
         for k in 0..scales {
             let s = RATIO.powi(k as i32);
-            let surround = at_scale(s * RATIO);
+            let surround = at_scale(s * RATIO)?;
             let offset = (self.sharpening.exp2() * KEY / (s * s)) as f32;
             let threshold = self.threshold as f32;
             let grow = |(((chosen, growing), centre), surround): (((&mut f32, &mut bool), &f32), &f32)| {

@@ -8,9 +8,11 @@
 //! 1 / (2 R sqrt 12) degrees. The paper blurs each place by its own luminance; here the blur is that of the picture's adaptation, and places that are bright enough for the cones stay sharp.
 
 use super::rods::Rods;
+use crate::error::Result;
 use crate::post::picture::View;
 use crate::post::tone::frame::{Frame, exposed};
 use crate::post::tone::gaussian::blurred;
+use crate::progress::Progress;
 use rayon::prelude::*;
 
 /// Standard deviation under which a blur is not seen [pixels].
@@ -22,12 +24,15 @@ pub fn resolvable_cycles_per_degree(adaptation: f64) -> f64 {
 }
 
 /// XYZ [cd m-2] of all pixels of `frame` as rods resolve them that are adapted to `adaptation` [cd m-2], row-major (height, width, 3), with `loss` times the blur; nothing if
-/// the picture is too coarse to show it, or too bright for rods.
-pub fn blurred_for_rods(frame: &Frame<'_>, adaptation: f64, loss: f64) -> Option<Vec<f32>> {
+/// the picture is too coarse to show it, or too bright for rods. Progress is the stage "tone map".
+///
+/// # Errors
+/// [`Error::Cancelled`](crate::Error::Cancelled).
+pub fn blurred_for_rods(frame: &Frame<'_>, adaptation: f64, loss: f64, progress: &Progress) -> Result<Option<Vec<f32>>> {
     let sigma_deg = loss / (2.0 * resolvable_cycles_per_degree(adaptation) * 12f64.sqrt());
     let sigma = sigma_deg / frame.degrees_per_pixel();
     if sigma < NOT_SEEN || Rods::share_of(0.0, adaptation) == 0.0 {
-        return None;
+        return Ok(None);
     }
     let stretch = |row: usize| match frame.view {
         // A latitude-longitude picture is stretched along its rows towards the poles.
@@ -41,10 +46,11 @@ pub fn blurred_for_rods(frame: &Frame<'_>, adaptation: f64, loss: f64) -> Option
         plane.par_chunks_mut(frame.width).enumerate().for_each(|(row, plane)| {
             plane.iter_mut().zip(frame.row(row)).for_each(|(value, &pixel)| *value = exposed(&matrix, pixel)[channel]);
         });
-        let plane = blurred(&plane, frame.width, crate::post::tone::edges(frame), sigma, stretch);
+        let plane =
+            blurred(&plane, (frame.width, crate::post::tone::edges(frame)), sigma, stretch, || progress.report("tone map", 0.0))?;
         out.par_chunks_mut(3).zip(&plane).with_min_len(1 << 12).for_each(|(out, &value)| out[channel] = value);
     }
-    Some(out)
+    Ok(Some(out))
 }
 
 #[cfg(test)]
