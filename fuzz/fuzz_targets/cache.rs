@@ -26,7 +26,11 @@ fuzz_target!(|input: (Vec<Vec<f32>>, Damage)| {
     builder.text("fuzz");
     let key = builder.finish();
     cache.store(&key, &sections);
-    let Some(entry) = std::fs::read_dir(FOLDER.path()).unwrap().filter_map(Result::ok).find(|entry| entry.path().extension().is_some()) else { return };
+    let Some(entry) =
+        std::fs::read_dir(FOLDER.path()).unwrap().filter_map(Result::ok).find(|entry| entry.path().extension().is_some())
+    else {
+        return;
+    };
     let before = std::fs::read(entry.path()).unwrap();
     let mut bytes = before.clone();
     match damage {
@@ -46,7 +50,9 @@ fuzz_target!(|input: (Vec<Vec<f32>>, Damage)| {
     }
     std::fs::write(entry.path(), &bytes).unwrap();
     let loaded = cache.load(&key);
-    let bits = |sections: &[Vec<f32>]| -> Vec<Vec<u32>> { sections.iter().map(|section| section.iter().map(|value| value.to_bits()).collect()).collect() };
+    let bits = |sections: &[Vec<f32>]| -> Vec<Vec<u32>> {
+        sections.iter().map(|section| section.iter().map(|value| value.to_bits()).collect()).collect()
+    };
     if bytes == before {
         // A cache may refuse what is no light, such as numbers that are not finite, but never changes it.
         assert!(loaded.is_none_or(|loaded| bits(&loaded) == bits(&sections)));

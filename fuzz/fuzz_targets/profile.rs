@@ -37,12 +37,19 @@ fn phase(any: AnyPhase) -> Option<Phase> {
 }
 
 fuzz_target!(|any: AnyProfile| {
-    let AnyProfile { consistent, mut altitudes, mut wavelengths, components, mut albedo, mut sun, mut radius, mut sun_angle } = any;
+    let AnyProfile { consistent, mut altitudes, mut wavelengths, components, mut albedo, mut sun, mut radius, mut sun_angle } =
+        any;
     if consistent {
         altitudes.truncate(8);
         wavelengths.truncate(8);
-        altitudes.iter_mut().enumerate().for_each(|(index, altitude)| *altitude = 10.0 * index as f64 + altitude.clamp(0.0, 1.0) * index.min(1) as f64);
-        wavelengths.iter_mut().enumerate().for_each(|(index, wavelength)| *wavelength = 400.0 + 20.0 * index as f64 + wavelength.clamp(0.0, 1.0));
+        altitudes
+            .iter_mut()
+            .enumerate()
+            .for_each(|(index, altitude)| *altitude = 10.0 * index as f64 + altitude.clamp(0.0, 1.0) * index.min(1) as f64);
+        wavelengths
+            .iter_mut()
+            .enumerate()
+            .for_each(|(index, wavelength)| *wavelength = 400.0 + 20.0 * index as f64 + wavelength.clamp(0.0, 1.0));
         albedo.resize(wavelengths.len(), 0.2);
         sun.resize(wavelengths.len(), 1.5);
         (radius, sun_angle) = (6371.0, 0.2665);
@@ -53,7 +60,12 @@ fuzz_target!(|any: AnyProfile| {
             scattering.resize(cells, 0.01);
             absorption.resize(cells, 0.0);
         }
-        Component { name: "any".to_owned(), scattering_per_km: scattering, absorption_per_km: absorption, phase: any.and_then(phase) }
+        Component {
+            name: "any".to_owned(),
+            scattering_per_km: scattering,
+            absorption_per_km: absorption,
+            phase: any.and_then(phase),
+        }
     });
     let profile = OpticalProfile {
         altitudes_km: altitudes,
@@ -71,7 +83,13 @@ fuzz_target!(|any: AnyProfile| {
         for component in &profile.components {
             assert_eq!(component.scattering_per_km.len(), profile.altitudes_km.len() * wavelengths);
             assert_eq!(component.absorption_per_km.len(), profile.altitudes_km.len() * wavelengths);
-            assert!(component.scattering_per_km.iter().chain(&component.absorption_per_km).all(|value| value.is_finite() && *value >= 0.0));
+            assert!(
+                component
+                    .scattering_per_km
+                    .iter()
+                    .chain(&component.absorption_per_km)
+                    .all(|value| value.is_finite() && *value >= 0.0)
+            );
             if let Some(phase) = &component.phase {
                 for wavelength in 0..wavelengths {
                     for cosine in [-1.0, -0.3, 0.0, 0.7, 1.0] {

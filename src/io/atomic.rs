@@ -6,6 +6,7 @@
 
 use super::files::folder_of;
 use super::leftovers;
+use super::names::refused_by_windows;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use std::fs::{File, Metadata, OpenOptions};
@@ -176,6 +177,11 @@ fn target(path: &Path) -> Result<PathBuf> {
     };
     if target.file_name().is_none() {
         return Err(Error::file(path, "not the name of a file"));
+    }
+    if cfg!(windows)
+        && let Some(reason) = refused_by_windows(&target)
+    {
+        return Err(Error::file(path, reason));
     }
     if target.is_dir() {
         return Err(Error::file(path, "is a directory"));

@@ -9,6 +9,7 @@ pub mod hdr;
 pub mod json;
 mod leftovers;
 pub mod metadata;
+mod names;
 pub mod png;
 mod read;
 mod row_file;
