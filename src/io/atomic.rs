@@ -212,6 +212,9 @@ fn temporary(path: &Path, folder: &Path, replaced: Option<&Metadata>) -> Result<
     if replaced.is_none() {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     }
+    // Elsewhere files inherit who may do what from their folder.
+    #[cfg(not(unix))]
+    let _ = replaced;
     for _ in 0..ATTEMPTS {
         let mut known = unfinished();
         let file = builder.tempfile_in(folder).map_err(failed)?;
