@@ -75,6 +75,8 @@ def write_zip(target, wheel, manifest):
     """Write the extension to `target`, the same bytes for the same input."""
     content = {"blender_manifest.toml": manifest.encode(), f"wheels/{wheel.name}": wheel.read_bytes()}
     content["LICENSE"] = (ADDON / "LICENSE").read_bytes()
+    # Those of the library and of what is in it: the wheel carries them too, but few look there.
+    content |= {path.name: path.read_bytes() for path in ROOT.glob("LICENSE-*")}
     for source in ADDON.rglob("*"):
         if source.suffix in ENDINGS and source != Path(__file__).resolve():
             content[source.relative_to(ADDON).as_posix()] = source.read_bytes()

@@ -40,7 +40,9 @@ stage() {
 build_wheel() {
     # One wheel in dist/, so that nobody tests an old one.
     rm -f dist/skyprobe-*.whl dist/skyprobe-*.zip
-    "$root/.venv/bin/maturin" build --release --locked --out dist --interpreter "$python" \
+    # maturin finds zig by the python3 on the path. Linked by it the wheel loads where Blender does, whatever glibc is here; maturin checks that.
+    PATH=$root/.venv/bin:$PATH "$root/.venv/bin/maturin" build --release --locked --out dist --interpreter "$python" \
+        --compatibility manylinux_2_28 -- -C linker="$root/.ci/link_for_old_glibc.sh" \
         && "$python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall dist/skyprobe-*.whl \
         && (cd / && "$python" -c 'import skyprobe; print("skyprobe", skyprobe.__version__, "loads")')
 }
@@ -85,6 +87,9 @@ COUNT
 
 rm -f "$logs"/*
 stage "setup" tests/setup_hosts.sh || { echo "tests: 0 ran, setup failed"; exit 1; }
+# For everything that is compiled, not the wheel alone: other flags would compile each dependency again.
+CARGO_ENCODED_RUSTFLAGS=$("$python" .ci/remap_paths.py) || { echo "tests: 0 ran, cargo does not know the crates"; exit 1; }
+export CARGO_ENCODED_RUSTFLAGS
 stage "format" format
 stage "clippy" clippy
 stage "command line tool" cargo build --release --locked

@@ -6,6 +6,7 @@
 
 use super::files::folder_of;
 use super::leftovers;
+use super::names::refused_by_windows;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use std::fs::{File, Metadata, OpenOptions};
@@ -177,6 +178,11 @@ fn target(path: &Path) -> Result<PathBuf> {
     if target.file_name().is_none() {
         return Err(Error::file(path, "not the name of a file"));
     }
+    if cfg!(windows)
+        && let Some(reason) = refused_by_windows(&target)
+    {
+        return Err(Error::file(path, reason));
+    }
     if target.is_dir() {
         return Err(Error::file(path, "is a directory"));
     }
@@ -206,6 +212,9 @@ fn temporary(path: &Path, folder: &Path, replaced: Option<&Metadata>) -> Result<
     if replaced.is_none() {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     }
+    // Elsewhere files inherit who may do what from their folder.
+    #[cfg(not(unix))]
+    let _ = replaced;
     for _ in 0..ATTEMPTS {
         let mut known = unfinished();
         let file = builder.tempfile_in(folder).map_err(failed)?;

@@ -4,6 +4,7 @@ use super::leftovers;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+#[cfg(unix)]
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use unicode_normalization::UnicodeNormalization;

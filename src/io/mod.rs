@@ -10,6 +10,7 @@ pub mod json;
 mod leftovers;
 mod limits;
 pub mod metadata;
+mod names;
 pub mod png;
 mod read;
 mod row_file;

@@ -1,0 +1,14 @@
+//! The reader of configurations: what it accepts it also writes, and reads back as the same.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use skyprobe::io::Config;
+
+fuzz_target!(|text: &str| {
+    if let Ok(config) = Config::from_json(text) {
+        let _ = config.validate();
+        let written = config.to_json();
+        let again = Config::from_json(&written).expect("what was written is read");
+        assert_eq!(again.to_json(), written);
+    }
+});

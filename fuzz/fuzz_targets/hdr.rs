@@ -1,0 +1,13 @@
+//! The reader of Radiance pictures: whatever the bytes, a picture of finite pixels or an error, within the limits.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use skyprobe::io::{PictureHints, PictureLimits, read_hdr_bytes};
+
+fuzz_target!(|bytes: &[u8]| {
+    let hints = PictureHints { limits: PictureLimits { max_megapixels: 1.0 }, ..PictureHints::default() };
+    if let Ok(picture) = read_hdr_bytes(bytes, &hints) {
+        assert_eq!(picture.pixels.len(), 3 * picture.width * picture.height);
+        assert!(picture.pixels.iter().all(|value| value.is_finite()));
+    }
+});
