@@ -67,6 +67,7 @@ __all__ = [
     "SolarEclipse",
     "SunEvents",
     "ToneReport",
+    "UnsolvedError",
     "__version__",
     "auto_exposure",
     "civil_time",
@@ -90,6 +91,9 @@ class InputError(ValueError):
 
 class DataError(RuntimeError):
     """A table or file whose content cannot be used."""
+
+class UnsolvedError(RuntimeError):
+    """The light of this air cannot be found, or not well enough. The message says what is too thick and what would help; nothing was returned."""
 
 class Cancelled(Exception):
     """The progress callback returned False; nothing was left behind."""

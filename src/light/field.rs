@@ -2,6 +2,7 @@
 
 use super::air::Air;
 use super::angular::{AngularFunctions, Once};
+use super::balance::error_on_the_ground;
 use super::contracted::Contracted;
 use super::grid::{FINER, Grid};
 use super::harmonics::Orders;
@@ -161,6 +162,11 @@ impl LightField {
         })
     }
 
+    /// Relative error of the light on the ground that follows from the light which the field loses and wins, by wavelength, see `balance`: below 0 if light is missing.
+    pub fn errors_on_the_ground(&self) -> Vec<f64> {
+        self.blocks.iter().flat_map(|block| error_on_the_ground(block, &self.grid)).take(self.wavelengths).collect()
+    }
+
     /// For each component that scatters, how its light depends on the angle to the Sun.
     pub fn functions(&self) -> &Arc<Vec<AngularFunctions>> {
         &self.functions
@@ -234,6 +240,16 @@ impl LightField {
             }
         }
         sum
+    }
+
+    /// Irradiance of the ground by Sun and sky together per unit solar irradiance, by wavelength.
+    pub fn ground_irradiance(&self, sun_zenith: f64) -> Vec<f64> {
+        let light = self.blocks.iter().flat_map(|block| {
+            let mut sum = direct_ground_irradiance(&block.air, &block.sunlight, sun_zenith.cos());
+            add_scaled(&mut sum, 1.0, &block.field.ground_irradiance(&self.grid, sun_zenith.cos()));
+            sum
+        });
+        light.take(self.wavelengths).map(f64::from).collect()
     }
 
     /// Transmittance to the Sun's disc by wavelength, as a mean over the whole disc (parts behind the horizon count as 0).

@@ -17,7 +17,7 @@ use super::source::{Field, MAX_ORDER, Relative, Shape};
 use super::stokes::{add_tensor, single_dipole};
 use super::sunlight::Sunlight;
 use super::suns::{SunOnRay, Suns};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::quality::Numbers;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -30,7 +30,7 @@ pub const LANES: usize = 32;
 /// Orders at which the field is iterated to convergence: those that carry energy from place to place.
 const LOW_ORDER: usize = 2;
 
-/// Iterations after which the solve goes on with what it has; never reached with air that lets light through.
+/// Iterations after which the solve gives up.
 const MAX_ITERATIONS: usize = 60;
 
 /// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
@@ -79,7 +79,7 @@ impl<'a> Target<'a> {
 /// Solves the block of `air`: the low orders on the coarser `iteration_grid` until they agree with themselves, then all on `grid`.
 ///
 /// # Errors
-/// [`crate::Error::Cancelled`].
+/// [`Error::Unsolved`] if they never agree; [`Error::Cancelled`].
 pub fn solve(
     (air, direct): (Air<LANES>, Option<Sunlight<LANES>>),
     grid: &Grid,
@@ -100,17 +100,42 @@ pub fn solve(
     let once = operator.scatter_sunlight(&coarse, shape.truncated(LOW_ORDER), many.len(), &many, &stage(0.05, 0.15))?;
     let mut low = once.clone();
     let mut anderson = Anderson::new();
-    for iteration in 0..MAX_ITERATIONS {
+    let mut iteration = 0;
+    loop {
         // How many iterations there will be is not known: each takes an eighth of what is left of this part.
         let part = |iteration: usize| 0.4 - 0.25 * 0.875_f64.powi(iteration as i32);
         let mut next =
             operator.scatter(&coarse, (iteration_grid, &low), low.shape, &few, &stage(part(iteration), part(iteration + 1)))?;
         next.add(&once);
+        if std::env::var_os("SKY_UNJUDGED").is_some() && iteration % 15 == 14 {
+            let count = low.shape.count();
+            let nz = iteration_grid.zeniths.len();
+            let mut sums = vec![0.0_f64; 3]; let mut counts = [0; 3]; let mut biggest = (0.0, 0, 0);
+            for node in 0..low.values.len() / count {
+                let angle = iteration_grid.zeniths.angles()[node % nz].to_degrees();
+                let bucket = if angle < 80.0 { 0 } else if angle < 100.0 { 1 } else { 2 };
+                let m = super::source::mean(&next.values[node * count]);
+                let mut worst = 0.0_f64;
+                for k in 0..count { for n in 0..LANES { worst = worst.max(f64::from((next.values[node * count + k][n] - low.values[node * count + k][n]) / m).abs()); } }
+                sums[bucket] += worst * worst; counts[bucket] += 1;
+                if worst > biggest.0 { biggest = (worst, node / nz, node % nz); }
+            }
+            eprintln!("  it {iteration}: {:.4} {:.4} {:.4} biggest {:.3} z {:.2} sun {:.1}", (sums[0]/counts[0] as f64).sqrt(), (sums[1]/counts[1] as f64).sqrt(), (sums[2]/counts[2] as f64).sqrt(), biggest.0, iteration_grid.altitudes.nodes()[biggest.1], iteration_grid.zeniths.angles()[biggest.2].to_degrees());
+        }
         let change = anderson.step(&mut low, next, iteration >= 1);
         if change < numbers.convergence {
             break;
         }
+        iteration += 1;
+        if iteration == MAX_ITERATIONS || !change.is_finite() {
+            if std::env::var_os("SKY_UNJUDGED").is_some() { eprintln!("unconverged {iteration} {change}"); break; }
+            return Err(Error::unsolved(format!(
+                "successive orders of scattering still differ by {:.2} % after {iteration} iterations",
+                100.0 * change
+            )));
+        }
     }
+    if std::env::var_os("SKY_UNJUDGED").is_some() { eprintln!("iterations {iteration}"); }
 
     let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
     // Light scattered once is less smooth in azimuth than the rest.
