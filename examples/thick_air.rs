@@ -19,18 +19,28 @@ fn main() -> skyprobe::Result<()> {
                 let g: f64 = parts.next().unwrap_or("").parse().unwrap_or(0.0);
                 let albedo: f64 = parts.next().unwrap_or("").parse().unwrap_or(0.0);
                 let d: f64 = depth.parse().unwrap();
-                let phase = if g == 0.0 { Phase::Rayleigh { depolarisation: vec![0.0] } } else { Phase::HenyeyGreenstein { asymmetry: g } };
+                let phase = if g == 0.0 {
+                    Phase::Rayleigh { depolarisation: vec![0.0] }
+                } else {
+                    Phase::HenyeyGreenstein { asymmetry: g }
+                };
                 OpticalProfile {
                     altitudes_km: vec![0.0, 10.0],
                     wavelengths_nm: vec![550.0],
-                    components: vec![Component { name: "slab".into(), scattering_per_km: vec![d / 10.0; 2], absorption_per_km: vec![0.0; 2], phase: Some(phase) }],
+                    components: vec![Component {
+                        name: "slab".into(),
+                        scattering_per_km: vec![d / 10.0; 2],
+                        absorption_per_km: vec![0.0; 2],
+                        phase: Some(phase),
+                    }],
                     ground_albedo: vec![albedo],
                     solar_irradiance: vec![1.0],
                     planet_radius_km: 6371.0,
                     sun_angular_radius_deg: 0.2664,
                 }
             } else {
-                let air: AirParameters = serde_json::from_str(&format!(r#"{{"preset": "{kind}", "aod550": {depth}{extra}}}"#)).unwrap();
+                let air: AirParameters =
+                    serde_json::from_str(&format!(r#"{{"preset": "{kind}", "aod550": {depth}{extra}}}"#)).unwrap();
                 air.optical_profile(&wavelengths)?
             };
             let k = profile.wavelengths_nm.iter().position(|&w| w > 549.0).unwrap();
@@ -51,9 +61,17 @@ fn main() -> skyprobe::Result<()> {
             if dump {
                 let column = |values: &[f64]| -> Vec<f64> { values.iter().skip(k).step_by(count).copied().collect() };
                 let components: Vec<_> = profile.components.iter().map(|c| serde_json::json!({"s": column(&c.scattering_per_km), "a": column(&c.absorption_per_km), "m": c.phase.as_ref().map(|p| p.legendre_moments(40, k))})).collect();
-                println!("{}", serde_json::json!({"kind": kind, "depth": depth, "z": profile.altitudes_km, "components": components, "albedo": profile.ground_albedo[k], "cosines": cosines, "solved": solved, "expected": all[k], "worst": worst, "seconds": seconds}));
+                println!(
+                    "{}",
+                    serde_json::json!({"kind": kind, "depth": depth, "z": profile.altitudes_km, "components": components, "albedo": profile.ground_albedo[k], "cosines": cosines, "solved": solved, "expected": all[k], "worst": worst, "seconds": seconds})
+                );
             } else {
-                println!("{kind:8} {depth:>5}  {seconds:5.1} s   overhead {:.4e}, expected {:+.1} %, worst {:+.1} %", solved[15], 100.0 * all[k], 100.0 * worst);
+                println!(
+                    "{kind:8} {depth:>5}  {seconds:5.1} s   overhead {:.4e}, expected {:+.1} %, worst {:+.1} %",
+                    solved[15],
+                    100.0 * all[k],
+                    100.0 * worst
+                );
             }
         }
     }

@@ -12,17 +12,89 @@
 //! to first order the relative error of the latter. It is asked for no more than whether it is small.
 
 use super::air::Air;
-use super::grid::Grid;
+use super::grid::{Grid, scattering_depths};
 use super::single::direct_ground_irradiance;
 use super::solve::{Block, LANES};
 use super::source::Relative;
 use super::sunlight::Sunlight;
+use crate::atmosphere::OpticalProfile;
+use crate::error::{Error, Result};
 use std::f64::consts::PI;
+
+/// Largest error of the light on the ground, in the worst wavelength, with which a field is still a solution.
+const LARGEST_ERROR: f64 = 0.05;
+
+/// Optical depth of scattering, without forward peaks, from which no quality resolves the air: not worth a try.
+const HOPELESS_DEPTH: f64 = 16.0;
 
 /// Points for each unit of vertical optical depth between two levels, where sunlight is summed; at least and at most so many.
 const PER_OPTICAL_DEPTH: f64 = 3.0;
 const FEWEST_POINTS: usize = 4;
 const MOST_POINTS: usize = 96;
+
+/// Refuses at once the air of `profile` that is far too thick for a field of orders up to `order`.
+///
+/// # Errors
+/// [`Error::Unsolved`].
+pub fn check_depth(profile: &OpticalProfile, order: usize) -> Result<()> {
+    let thickest = scattering_depths(profile, order).into_iter().fold(0.0, f64::max);
+    if thickest <= HOPELESS_DEPTH {
+        return Ok(());
+    }
+    Err(unsolved(
+        profile,
+        &format!(
+            "forward peaks aside it scatters with an optical depth of {thickest:.3}, and from {HOPELESS_DEPTH} on no try is made"
+        ),
+    ))
+}
+
+/// Checks that the field of `block`, whose first wavelength is `first` in `profile`, is one of finite numbers that keep the energy of the light.
+///
+/// # Errors
+/// [`Error::Unsolved`].
+pub fn check(profile: &OpticalProfile, first: usize, block: &Block, grid: &Grid) -> Result<()> {
+    let field = &block.field;
+    let lanes = field.values.iter().chain(&field.ground).flatten();
+    if !lanes.chain(&field.log_magnitudes).chain(&field.ground_log_magnitudes).all(|value| value.is_finite()) {
+        return Err(unsolved(profile, "it is not finite"));
+    }
+    for (&error, &wavelength) in error_on_the_ground(block, grid).iter().zip(&profile.wavelengths_nm[first..]) {
+        // Not a number is no small one.
+        if !(error.abs() <= LARGEST_ERROR) {
+            let (size, word) = (100.0 * error.abs(), if error < 0.0 { "vanishes" } else { "comes from nowhere" });
+            let limit = 100.0 * LARGEST_ERROR;
+            return Err(unsolved(
+                profile,
+                &format!("at {wavelength} nm light {word}, {size:.1} % of that on the ground, more than {limit} %"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Says why the light of the air of `profile` is not found, what in it is to blame, and what helps.
+pub fn unsolved(profile: &OpticalProfile, reason: &str) -> Error {
+    let (z, count) = (&profile.altitudes_km, profile.wavelengths_nm.len());
+    let (mut thickest, mut depth, mut wavelength) = ("air", 0.0, profile.wavelengths_nm[0]);
+    for component in &profile.components {
+        for w in 0..count {
+            let at = |i: usize| component.scattering_per_km[i * count + w];
+            let column: f64 = (1..z.len()).map(|i| 0.5 * (z[i] - z[i - 1]) * (at(i - 1) + at(i))).sum();
+            if column > depth {
+                (thickest, depth, wavelength) = (component.name.as_str(), column, profile.wavelengths_nm[w]);
+            }
+        }
+    }
+    let less = match thickest {
+        "aerosol" => "less aerosol (a smaller aod550 or turbidity, a longer visibility_km)",
+        _ => "less of it",
+    };
+    Error::unsolved(format!(
+        "the light of this air cannot be found well enough: {reason}. It is too thick, with a vertical optical depth of {depth:.3} of scattering by {thickest} at {wavelength} nm. \
+         What helps is {less}, and within limits a higher quality"
+    ))
+}
 
 /// A field's light as means over all positions of the Sun, by wavelength.
 type Means = [f64; LANES];
@@ -34,7 +106,8 @@ pub fn error_on_the_ground(block: &Block, grid: &Grid) -> Means {
     let shares = shares_of_the_sphere(grid);
     let levels = grid.altitudes.nodes();
     let importance = Importance::new(air);
-    let (flux, mean_radiance) = (means(field, grid, &shares, 1, -(4.0 * PI / 3.0).sqrt()), means(field, grid, &shares, 0, (4.0 * PI).sqrt()));
+    let (flux, mean_radiance) =
+        (means(field, grid, &shares, 1, -(4.0 * PI / 3.0).sqrt()), means(field, grid, &shares, 0, (4.0 * PI).sqrt()));
     let mut on_the_ground = [0.0; LANES];
     let mut error = [0.0; LANES];
     for (zenith, &share) in shares.iter().enumerate() {

@@ -30,8 +30,15 @@ pub const LANES: usize = 32;
 /// Orders at which the field is iterated to convergence: those that carry energy from place to place.
 const LOW_ORDER: usize = 2;
 
-/// Iterations after which the solve gives up.
-const MAX_ITERATIONS: usize = 60;
+/// Most iterations with acceleration, which clear air needs five of, and most without. Acceleration is lost where a few nodes at the terminator do not come to rest.
+const MAX_ACCELERATED: usize = 30;
+const MAX_PLAIN: usize = 80;
+
+/// A relative change from which nothing good comes any more.
+const HOPELESS: f32 = 1e3;
+
+/// Iterations in which the change must fall by a tenth at least.
+const PATIENCE: usize = 15;
 
 /// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
 const FEWEST_AZIMUTHS: usize = 4;
@@ -98,44 +105,15 @@ pub fn solve(
 
     let coarse = Target::new(iteration_grid, &air, numbers.iteration_zenith_nodes, limits);
     let once = operator.scatter_sunlight(&coarse, shape.truncated(LOW_ORDER), many.len(), &many, &stage(0.05, 0.15))?;
-    let mut low = once.clone();
-    let mut anderson = Anderson::new();
-    let mut iteration = 0;
-    loop {
+    let scatter_once_more = |low: &Field<LANES>, iteration: usize| {
         // How many iterations there will be is not known: each takes an eighth of what is left of this part.
         let part = |iteration: usize| 0.4 - 0.25 * 0.875_f64.powi(iteration as i32);
-        let mut next =
-            operator.scatter(&coarse, (iteration_grid, &low), low.shape, &few, &stage(part(iteration), part(iteration + 1)))?;
+        let stage = stage(part(iteration), part(iteration + 1));
+        let mut next = operator.scatter(&coarse, (iteration_grid, low), low.shape, &few, &stage)?;
         next.add(&once);
-        if std::env::var_os("SKY_UNJUDGED").is_some() && iteration % 15 == 14 {
-            let count = low.shape.count();
-            let nz = iteration_grid.zeniths.len();
-            let mut sums = vec![0.0_f64; 3]; let mut counts = [0; 3]; let mut biggest = (0.0, 0, 0);
-            for node in 0..low.values.len() / count {
-                let angle = iteration_grid.zeniths.angles()[node % nz].to_degrees();
-                let bucket = if angle < 80.0 { 0 } else if angle < 100.0 { 1 } else { 2 };
-                let m = super::source::mean(&next.values[node * count]);
-                let mut worst = 0.0_f64;
-                for k in 0..count { for n in 0..LANES { worst = worst.max(f64::from((next.values[node * count + k][n] - low.values[node * count + k][n]) / m).abs()); } }
-                sums[bucket] += worst * worst; counts[bucket] += 1;
-                if worst > biggest.0 { biggest = (worst, node / nz, node % nz); }
-            }
-            eprintln!("  it {iteration}: {:.4} {:.4} {:.4} biggest {:.3} z {:.2} sun {:.1}", (sums[0]/counts[0] as f64).sqrt(), (sums[1]/counts[1] as f64).sqrt(), (sums[2]/counts[2] as f64).sqrt(), biggest.0, iteration_grid.altitudes.nodes()[biggest.1], iteration_grid.zeniths.angles()[biggest.2].to_degrees());
-        }
-        let change = anderson.step(&mut low, next, iteration >= 1);
-        if change < numbers.convergence {
-            break;
-        }
-        iteration += 1;
-        if iteration == MAX_ITERATIONS || !change.is_finite() {
-            if std::env::var_os("SKY_UNJUDGED").is_some() { eprintln!("unconverged {iteration} {change}"); break; }
-            return Err(Error::unsolved(format!(
-                "successive orders of scattering still differ by {:.2} % after {iteration} iterations",
-                100.0 * change
-            )));
-        }
-    }
-    if std::env::var_os("SKY_UNJUDGED").is_some() { eprintln!("iterations {iteration}"); }
+        Ok(next)
+    };
+    let low = iterate(&once, numbers.convergence, scatter_once_more)?;
 
     let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
     // Light scattered once is less smooth in azimuth than the rest.
@@ -150,6 +128,41 @@ pub fn solve(
     }
     let field = Relative::new(&field);
     Ok(Block { air, sunlight, direct, field })
+}
+
+/// The field that `scatter_once_more` takes to itself, but for a relative `change`; it gets the field and the number of the iteration.
+fn iterate(
+    once: &Field<LANES>,
+    convergence: f32,
+    scatter_once_more: impl Fn(&Field<LANES>, usize) -> Result<Field<LANES>>,
+) -> Result<Field<LANES>> {
+    let (mut iterations, mut smallest) = (0, f32::INFINITY);
+    for (most, accelerated) in [(MAX_ACCELERATED, true), (MAX_PLAIN, false)] {
+        let mut low = once.clone();
+        let mut anderson = Anderson::new();
+        let mut changes: Vec<f32> = Vec::new();
+        for iteration in 0..most {
+            let next = scatter_once_more(&low, iterations)?;
+            iterations += 1;
+            let change = anderson.step(&mut low, next, accelerated && iteration >= 1);
+            smallest = smallest.min(change);
+            // What is left to come of a plain iteration is a geometric series.
+            let rate = changes.last().map_or(0.0, |last| (change / last).clamp(0.0, 0.99));
+            let left = if accelerated { change } else { change * (1.0_f32).max(rate / (1.0 - rate)) };
+            if left < convergence {
+                return Ok(low);
+            }
+            let stands_still = !accelerated && iteration >= PATIENCE && change > 0.9 * changes[iteration - PATIENCE];
+            if stands_still || change.is_nan() || change > HOPELESS {
+                break;
+            }
+            changes.push(change);
+        }
+    }
+    Err(Error::unsolved(format!(
+        "after {iterations} iterations successive orders of scattering still change it by {:.1} %",
+        100.0 * smallest
+    )))
 }
 
 /// The part of the progress that one application of the operator makes.

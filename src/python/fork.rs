@@ -63,9 +63,9 @@ pub fn in_parallel<T: Send>(_begun: &AtWork, work: impl FnOnce() -> Result<T> + 
     let pool = {
         let mut kept = OF_CHILD.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.as_ref().is_none_or(|(process, _)| *process != this_process) {
-            let pool = ThreadPoolBuilder::new().build().map_err(|error| {
-                PyErr::new::<PyRuntimeError, _>(format!("no threads for a process that was forked: {error}"))
-            })?;
+            let pool = ThreadPoolBuilder::new()
+                .build()
+                .map_err(|error| PyErr::new::<PyRuntimeError, _>(format!("no threads for a process that was forked: {error}")))?;
             // An ancestor's pool has no threads here that could end.
             std::mem::forget(kept.replace((this_process, Arc::new(pool))));
         }

@@ -24,7 +24,8 @@ impl Turn {
         loop {
             let holder = self.0.load(Ordering::Relaxed);
             // A fork copies the memory but not the other threads.
-            if holder != this_process && self.0.compare_exchange(holder, this_process, Ordering::Acquire, Ordering::Relaxed).is_ok()
+            if holder != this_process
+                && self.0.compare_exchange(holder, this_process, Ordering::Acquire, Ordering::Relaxed).is_ok()
             {
                 return Ok(Taken(self));
             }

@@ -20,10 +20,6 @@ impl Random {
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
     fn one_of<T: Copy>(&mut self, of: &[T]) -> T {
         of[((self.next() * of.len() as f64) as usize).min(of.len() - 1)]
     }
@@ -171,7 +167,10 @@ fn every_single_value_makes_another_key() {
 fn seen(field: &LightField) -> Vec<f64> {
     let observer = Observer { altitude_km: 0.3, sun_zenith: 1.1 };
     let gathered = field.gather(&observer, 0.4, &[0.0, 2.0]);
-    (0..2).flat_map(|a| (0..gathered.wavelengths).map(move |w| (a, w))).map(|(a, w)| field.radiance(&gathered, a, w, 0.3)).collect()
+    (0..2)
+        .flat_map(|a| (0..gathered.wavelengths).map(move |w| (a, w)))
+        .map(|(a, w)| field.radiance(&gathered, a, w, 0.3))
+        .collect()
 }
 
 /// The light of `profile` by way of `cache`, as an [`super::super::Atmosphere`] keeps it.
@@ -205,7 +204,12 @@ fn with_the_cache_every_air_has_the_light_that_it_has_without() {
     let [urban, desert] = [AerosolType::Urban, AerosolType::Desert].map(|t| of_type(t).optical_profile(&wavelengths).unwrap());
     let mut random = Random(7);
     let mut airs = vec![urban, desert];
-    airs.extend((0..2).map(|_| random_profile(&mut random)));
+    // SKYPROBE_RANDOM_AIRS=100 looks at more of them.
+    let count = std::env::var("SKYPROBE_RANDOM_AIRS").ok().and_then(|count| count.parse().ok()).unwrap_or(4);
+    airs.extend((0..count).map(|k| match k % 2 {
+        0 => random_profile(&mut random),
+        _ => random_air(&mut random).optical_profile(&wavelengths).unwrap(),
+    }));
     let mut other = airs[2].clone();
     for profile in [&mut airs[2], &mut other] {
         profile.components[2].phase = Some(tabulated(&mut random));
