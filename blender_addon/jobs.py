@@ -12,8 +12,8 @@ from dataclasses import asdict, dataclass
 import numpy as np
 import skyprobe
 
-# What a user can understand and mend: wrong values, files that cannot be written, a library with damaged data.
-USER_ERRORS = (ValueError, OSError, skyprobe.DataError)
+# What a user can understand and mend: wrong values, files that cannot be written, a library with damaged data, air too thick to be solved.
+USER_ERRORS = (ValueError, OSError, skyprobe.DataError, skyprobe.UnsolvedError)
 
 # Luminance of linear Rec.709 over the library's radiance unit for Blender [lm/W].
 LUMINOUS_EFFICACY = 683.0

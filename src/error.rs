@@ -1,14 +1,14 @@
 //! What can go wrong, and what the caller can do about it.
 //!
 //! There are few kinds on purpose: mend the input, mend the data, look at the
-//! disk, or accept that the work was cancelled.
+//! disk, ask for other air, or accept that the work was cancelled.
 
 use std::path::{Path, PathBuf};
 
 /// Result of every fallible operation of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// The four ways in which work ends without a result.
+/// The five ways in which work ends without a result.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The caller gave a value that cannot be used; nothing was computed.
@@ -25,6 +25,12 @@ pub enum Error {
     #[error("{what}")]
     Data {
         /// What is wrong with which data.
+        what: String,
+    },
+    /// The light of this air cannot be found, or not well enough; what was found is not returned.
+    #[error("{what}")]
+    Unsolved {
+        /// What is wrong with the solution, what of the air is to blame, and what would help.
         what: String,
     },
     /// Reading or writing failed; a target file is untouched.
@@ -49,6 +55,11 @@ impl Error {
     /// An [`Error::Data`].
     pub fn data(what: impl Into<String>) -> Self {
         Self::Data { what: what.into() }
+    }
+
+    /// An [`Error::Unsolved`].
+    pub fn unsolved(what: impl Into<String>) -> Self {
+        Self::Unsolved { what: what.into() }
     }
 
     /// An [`Error::File`] for `path`.
@@ -76,6 +87,14 @@ pub fn check_range(parameter: &str, value: f64, low: f64, high: f64, unit: &str)
     }
     let space = if unit.is_empty() { "" } else { " " };
     Err(Error::input(parameter, value, format!("a number from {low} to {high}{space}{unit}")))
+}
+
+/// Checks that all `values` are finite: if not, an [`Error::Data`] that says `what` is not: the last guard before numbers leave the library.
+pub(crate) fn check_finite(what: &str, values: &[f64]) -> Result<()> {
+    if values.iter().all(|value| value.is_finite()) {
+        return Ok(());
+    }
+    Err(Error::data(format!("{what} is not finite")))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ import ast
 import datetime
 import importlib.util
 import inspect
+import os
 import pathlib
 import signal
 import subprocess
@@ -13,7 +14,7 @@ import sys
 import threading
 import time
 import _thread
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy
@@ -408,6 +409,125 @@ def test_other_threads_run_during_the_work(whole_solve: tuple[float, int]) -> No
     seconds, turns = whole_solve
     # With the interpreter held there would be no turn at all; the machine may be busy, so a fifth of them will do.
     assert turns > seconds / 0.005 / 5, f"{turns} turns in {seconds} s"
+
+
+# Runs in a process of its own, so that a hang is one of that process. Each child says what it saw.
+FORKING = """
+import multiprocessing, sys, threading, time
+import numpy, skyprobe as sp
+from skyprobe import post
+
+air = sp.Atmosphere(quality="draft")
+low = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=air)
+
+def light(quality_of_new_air=None):
+    own = air if quality_of_new_air is None else sp.Atmosphere(quality=quality_of_new_air)
+    sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=own)
+    pixels = sky.render(width=64).pixels
+    shown, _ = post.tone_map(pixels, projection="latlong", white_luminance=1.0)
+    times = [1.1e9 + 600.0 * k for k in range(200)]
+    placed = sp.Sky(latitude=55.7, longitude=13.2, time="2005-06-21T13:00:00+02:00", atmosphere=own)
+    return pixels, shown, sky.illuminance().global_horizontal_lx, placed.positions("Moon", times)
+
+def same(a, b):
+    return all(numpy.array_equal(x, y) for x, y in zip(a, b))
+
+def main():
+    fork = multiprocessing.get_context("fork")
+    before = light()
+    with fork.Pool(2) as pool:
+        for found in pool.map(light, [None, "draft", None, "draft"]):
+            assert same(found, before), "another light in a child"
+    # A child of a child, after work in both.
+    def child(connection):
+        light()
+        inner, outer = fork.Pipe()
+        process = fork.Process(target=lambda: outer.send(light()))
+        process.start()
+        connection.send(inner.recv())
+        process.join()
+    here, there = fork.Pipe()
+    process = fork.Process(target=child, args=(there,))
+    process.start()
+    assert same(here.recv(), before), "another light in a grandchild"
+    process.join()
+    assert same(light(), before), "the parent works on"
+    print("equal")
+
+def during():
+    """A child made while another thread of its parent solves."""
+    fork = multiprocessing.get_context("fork")
+    begun, go_on = threading.Event(), threading.Event()
+    def listen(stage, fraction):
+        begun.set()
+        go_on.wait()
+    thread = threading.Thread(target=lambda: sp.Atmosphere(quality="draft").solve(listen))
+    thread.start()
+    begun.wait()
+    def child(connection):
+        try:
+            light()
+            connection.send("worked")
+        except RuntimeError as error:
+            connection.send(str(error))
+    here, there = fork.Pipe()
+    process = fork.Process(target=child, args=(there,))
+    process.start()
+    print(here.recv())
+    process.join()
+    go_on.set()
+    thread.join()
+
+{"after": main, "during": during}[sys.argv[1]]()
+"""
+
+
+def forked(when: str) -> str:
+    environment = {**os.environ, "SKYPROBE_CACHE": "off", "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run(
+        [sys.executable, "-c", FORKING, when], capture_output=True, text=True, timeout=120, check=False, env=environment
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="a system without fork")
+def test_children_of_a_process_that_has_worked_work_and_see_the_same() -> None:
+    assert forked("after") == "equal\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="a system without fork")
+def test_a_child_of_a_process_at_work_says_so_at_once() -> None:
+    assert "forked while another thread of its parent was at work" in forked("during")
+
+
+def test_air_too_thick_for_the_solver_is_told_as_such() -> None:
+    for air in [
+        sp.Atmosphere("fog", aod550=25, quality="draft"),
+        sp.Atmosphere("desert", aod550=50, quality="draft"),
+        slab(optical_depth=20.0, ground_albedo=1.0),
+    ]:
+        sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=air)
+        works: list[Callable[[], object]] = [
+            air.solve,
+            sky.illuminance,
+            lambda sky=sky: sky.render(width=64),  # type: ignore[misc]
+            lambda sky=sky: sky.spectral_radiance([0.0, 0.0, 1.0], [550.0]),  # type: ignore[misc]
+            lambda sky=sky: sky.irradiance([550.0]),  # type: ignore[misc]
+        ]
+        for work in works:
+            with pytest.raises(sp.UnsolvedError, match="optical depth of"):
+                work()
+
+
+def slab(optical_depth: float, ground_albedo: float) -> sp.Atmosphere:
+    """A homogeneous layer of 10 km that does not absorb."""
+    wavelengths = numpy.linspace(400.0, 700.0, 8)
+    scattering = numpy.full((2, 8), optical_depth / 10.0)
+    component = sp.Component(scattering=scattering, absorption=numpy.zeros((2, 8)), phase=sp.Phase.rayleigh(), name="slab")
+    return sp.Atmosphere.from_profile(
+        [0.0, 10.0], wavelengths, [component], ground_albedo=ground_albedo, solar_irradiance=1.0, quality="draft"
+    )
 
 
 def test_several_threads_may_use_one_air(air: sp.Atmosphere) -> None:

@@ -29,10 +29,15 @@ system's place for caches, 1 GB at most. ``SKYPROBE_CACHE=off`` or ``Atmosphere(
 Errors
 ------
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
-``RuntimeError``) says which data cannot be used; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
-:class:`ScaleWarning` says that the luminance of a picture had to be assumed,
-:class:`SunlightOnlyWarning` that a spectrum lacks the light of the night,
+``RuntimeError``) says which data cannot be used; :class:`UnsolvedError` (a ``RuntimeError``) says that the light of this air cannot be found and what
+would help; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
+:class:`ScaleWarning` says that the luminance of a picture had to be assumed, :class:`SunlightOnlyWarning` that a spectrum lacks the light of the night,
 :class:`TimeWarning` what had to be assumed about a time.
+
+Processes
+---------
+After ``fork`` (``multiprocessing``'s default on Linux up to Python 3.13) the child works with threads of its own. A child that was forked while another thread of
+its parent was at work here raises ``RuntimeError`` at the first work: what that thread held would never be let go.
 """
 
 from . import places
@@ -58,6 +63,7 @@ from ._core import (
     SunEvents,
     SunlightOnlyWarning,
     TimeWarning,
+    UnsolvedError,
     __version__,
     check_files,
 )
@@ -84,6 +90,7 @@ __all__ = [
     "SunEvents",
     "SunlightOnlyWarning",
     "TimeWarning",
+    "UnsolvedError",
     "__version__",
     "check_files",
     "places",

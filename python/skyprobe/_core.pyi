@@ -70,6 +70,7 @@ __all__ = [
     "TimeFields",
     "TimeWarning",
     "ToneReport",
+    "UnsolvedError",
     "__version__",
     "auto_exposure",
     "check_files",
@@ -96,6 +97,9 @@ class InputError(ValueError):
 
 class DataError(RuntimeError):
     """A table or file whose content cannot be used."""
+
+class UnsolvedError(RuntimeError):
+    """The light of this air cannot be found, or not well enough. The message says what is too thick and what would help; nothing was returned."""
 
 class Cancelled(Exception):
     """The progress callback returned False; nothing was left behind."""

@@ -107,6 +107,13 @@ impl PhaseTable {
         self.largest_deviation
     }
 
+    /// The values that tell this function from any other: its angles [radians] and logarithms, row-major, shape (wavelengths, angles).
+    pub fn defining_values(&self) -> [&[f64]; 2] {
+        // By name, so that a new field cannot be forgotten. The others follow from these, or are only told.
+        let Self { angles, wavelengths: _, ln_values, first_interval: _, largest_deviation: _ } = self;
+        [angles, ln_values]
+    }
+
     fn row(&self, wavelength: usize) -> std::ops::Range<usize> {
         let first = if self.wavelengths == 1 { 0 } else { wavelength * self.angles.len() };
         first..first + self.angles.len()

@@ -101,7 +101,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             complain(&format!("error: {error}"));
             match error {
                 Error::Input { .. } => 2,
-                Error::Data { .. } | Error::File { .. } => 1,
+                Error::Data { .. } | Error::Unsolved { .. } | Error::File { .. } => 1,
                 Error::Cancelled => terminal::EXIT_CODE,
             }
         }

@@ -124,6 +124,11 @@ impl<const N: usize> Air<N> {
         sharp_bends(self.altitudes.nodes(), &mean)
     }
 
+    /// Altitudes of the profile [km].
+    pub fn altitudes(&self) -> &[f64] {
+        self.altitudes.nodes()
+    }
+
     /// The components that scatter.
     pub fn scatterers(&self) -> &[Scatterer<N>] {
         &self.scatterers
@@ -153,6 +158,11 @@ impl<const N: usize> Scatterer<N> {
     #[inline(always)]
     pub fn above(&self, (interval, fraction): (usize, f32)) -> Lanes<N> {
         lerp(&self.above[interval], &self.above[interval + 1], fraction)
+    }
+
+    /// Asymmetry of the phase function without its forward peak.
+    pub fn asymmetry(&self) -> Lanes<N> {
+        self.all_moments.get(1).copied().unwrap_or(splat(0.0))
     }
 
     /// The phase function without its forward peak at the scattering angle with cosine `cosine`.

@@ -2,6 +2,7 @@
 
 use super::air::Air;
 use super::angular::{AngularFunctions, Once};
+use super::balance;
 use super::contracted::Contracted;
 use super::grid::{FINER, Grid};
 use super::harmonics::Orders;
@@ -13,7 +14,7 @@ use super::source::{MAX_ORDER, Relative, Shape};
 use super::sunlight::Sunlight;
 use super::suns::{SunOnRay, Suns};
 use crate::atmosphere::{OpticalProfile, Phase};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::quality::Numbers;
 use multiversion::multiversion;
@@ -90,12 +91,17 @@ impl LightField {
     /// Solves the multiple scattering of `profile`, which must be valid, with its polarisation or as a scalar.
     ///
     /// # Errors
-    /// [`crate::Error::Cancelled`].
+    /// [`Error::Unsolved`] for air so thick that no solution is found or that it does not keep the energy of the light; [`Error::Cancelled`].
     pub fn solve(profile: &OpticalProfile, numbers: &Numbers, polarised: bool, progress: &Progress) -> Result<Self> {
         let count = profile.wavelengths_nm.len().div_ceil(LANES);
+        balance::check_depth(profile, numbers.order)?;
         Self::assemble(profile, numbers, polarised, |block, air, [grid, iteration_grid], limits| {
             let report = |fraction: f64| progress.report("solve", (block as f64 + fraction) / count as f64);
-            solve(air, grid, iteration_grid, numbers, polarised, limits, &report)
+            let solved = solve(air, grid, iteration_grid, numbers, polarised, limits, &report);
+            solved.map_err(|error| match error {
+                Error::Unsolved { what } => balance::unsolved(profile, &what),
+                other => other,
+            })
         })
     }
 
@@ -118,7 +124,9 @@ impl LightField {
                     let peaks =
                         profile.components.iter().any(|c| c.phase.as_ref().is_some_and(|p| !matches!(p, Phase::Rayleigh { .. })));
                     let direct = peaks.then(|| Sunlight::new(&Air::unscaled(profile, block * LANES)));
-                    make(block, (air, direct), [&grid, &iteration_grid], limits)
+                    let made = make(block, (air, direct), [&grid, &iteration_grid], limits)?;
+                    balance::check(profile, block * LANES, &made, &grid)?;
+                    Ok(made)
                 })
                 .collect::<Result<Vec<_>>>()
         };
@@ -149,16 +157,21 @@ impl LightField {
     /// The field that [`Self::to_sections`] was asked of, for the same `profile`, `numbers` and `polarised`.
     ///
     /// # Errors
-    /// [`Error::Data`](crate::Error::Data) for sections of another field.
+    /// [`Error::Data`] for sections of another field, [`Error::Unsolved`] for those of none.
     pub fn from_sections(profile: &OpticalProfile, numbers: &Numbers, polarised: bool, sections: &[Vec<f32>]) -> Result<Self> {
         let parts = Relative::<LANES>::SECTIONS;
         Self::assemble(profile, numbers, polarised, |block, (air, direct), [grid, _], _| {
             let shape = Shape { orders: Orders::new(numbers.order, numbers.azimuthal_order), polarised };
             let own = sections.get(block * parts..(block + 1) * parts);
             let field = own.and_then(|own| Relative::from_sections(grid, shape, own));
-            let field = field.ok_or_else(|| crate::Error::data("stored light of another field"))?;
+            let field = field.ok_or_else(|| Error::data("stored light of another field"))?;
             Ok(Block { sunlight: Sunlight::new(&air), air, direct, field })
         })
+    }
+
+    /// Relative error of the light on the ground that follows from the light which the field loses and wins, by wavelength, see `balance`: below 0 if light is missing.
+    pub fn errors_on_the_ground(&self) -> Vec<f64> {
+        self.blocks.iter().flat_map(|block| balance::error_on_the_ground(block, &self.grid)).take(self.wavelengths).collect()
     }
 
     /// For each component that scatters, how its light depends on the angle to the Sun.
@@ -234,6 +247,16 @@ impl LightField {
             }
         }
         sum
+    }
+
+    /// Irradiance of the ground by Sun and sky together per unit solar irradiance, by wavelength.
+    pub fn ground_irradiance(&self, sun_zenith: f64) -> Vec<f64> {
+        let light = self.blocks.iter().flat_map(|block| {
+            let mut sum = direct_ground_irradiance(&block.air, &block.sunlight, sun_zenith.cos());
+            add_scaled(&mut sum, 1.0, &block.field.ground_irradiance(&self.grid, sun_zenith.cos()));
+            sum
+        });
+        light.take(self.wavelengths).map(f64::from).collect()
     }
 
     /// Transmittance to the Sun's disc by wavelength, as a mean over the whole disc (parts behind the horizon count as 0).

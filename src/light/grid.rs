@@ -1,11 +1,13 @@
 //! The grid of the solve: altitude levels, solar zenith angles, and directions at each level.
 
+use super::air::forward_share;
 use super::axis::Axis;
 use super::gauss;
 use super::ray::sharp_bends;
 use super::zenith_axis::ZenithAxis;
 use crate::atmosphere::OpticalProfile;
 use crate::quality::Numbers;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Where the light field is known.
@@ -29,10 +31,43 @@ pub const FINER: usize = 3;
 /// Part of the levels that follow the optical depth of the air rather than altitude: shallow layers, as of fog, get levels of their own.
 const BY_OPTICAL_DEPTH: f64 = 0.3;
 
+/// Optical depth of scattering, without forward peaks, up to which the levels of a quality do, how many more there are for each beyond it, and how many more at most. Those follow the
+/// optical depth.
+const THIN: f64 = 1.0;
+const MORE_PER_OPTICAL_DEPTH: f64 = 2.0;
+const MOST_MORE: usize = 16;
+
+/// Vertical optical depths of scattering in `profile` by wavelength, forward peaks beside a field of orders up to `order` not counted.
+pub fn scattering_depths(profile: &OpticalProfile, order: usize) -> Vec<f64> {
+    let (z, count) = (&profile.altitudes_km, profile.wavelengths_nm.len());
+    let of = |w: usize| -> f64 {
+        let columns = profile.components.iter().filter_map(|component| Some((component.phase.as_ref()?, component)));
+        columns
+            .map(|(phase, component)| {
+                let at = |i: usize| component.scattering_per_km[i * count + w];
+                let column: f64 = (1..z.len()).map(|i| 0.5 * (z[i] - z[i - 1]) * (at(i - 1) + at(i))).sum();
+                // What is thin anyway need not be known better.
+                let share = if column > 0.5 * THIN { forward_share(&phase.legendre_moments(order + 2, w), order) } else { 0.0 };
+                column * (1.0 - share)
+            })
+            .sum()
+    };
+    (0..count).into_par_iter().map(of).collect()
+}
+
+/// How many levels more than usual air of these optical depths of scattering needs.
+fn more_levels(depths: &[f64]) -> usize {
+    let mean = depths.iter().sum::<f64>() / depths.len() as f64;
+    ((MORE_PER_OPTICAL_DEPTH * (mean - THIN)).ceil().max(0.0) as usize).min(MOST_MORE)
+}
+
 /// Where levels stand: equidistant in a mixture of (altitude / top)^(1 / 2.2) and the share of the vertical optical depth that is below.
 struct Measure {
     altitudes: Vec<f64>,
-    values: Vec<f64>,
+    /// The first of the two at these altitudes.
+    by_altitude: Vec<f64>,
+    /// The second.
+    by_optical_depth: Vec<f64>,
     /// Altitudes at which steps of rays end besides.
     bends: Vec<f64>,
 }
@@ -67,37 +102,45 @@ impl Measure {
             }
         }
         // Finer than the profile's own altitudes, between which the shares are linear.
-        let (mut altitudes, mut values) = (Vec::new(), Vec::new());
+        let (mut altitudes, mut by_altitude, mut by_optical_depth) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..z.len() - 1 {
             for part in 0..PARTS {
                 let t = part as f64 / PARTS as f64;
                 let altitude = z[i] + t * (z[i + 1] - z[i]);
                 altitudes.push(altitude);
-                let by_altitude = ((altitude - z[0]) / (top - z[0])).powf(1.0 / 2.2);
-                values
-                    .push((1.0 - BY_OPTICAL_DEPTH) * by_altitude + BY_OPTICAL_DEPTH * (share[i] + t * (share[i + 1] - share[i])));
+                by_altitude.push(((altitude - z[0]) / (top - z[0])).powf(1.0 / 2.2));
+                by_optical_depth.push(share[i] + t * (share[i + 1] - share[i]));
             }
         }
         altitudes.push(top);
-        values.push((1.0 - BY_OPTICAL_DEPTH) + BY_OPTICAL_DEPTH * share[z.len() - 1]);
-        Self { altitudes, values, bends: sharp_bends(z, &density) }
+        by_altitude.push(1.0);
+        by_optical_depth.push(share[z.len() - 1]);
+        Self { altitudes, by_altitude, by_optical_depth, bends: sharp_bends(z, &density) }
     }
 
-    /// `count` levels from the ground to the top.
-    fn spread(&self, count: usize) -> Axis {
-        let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
+    /// `count` levels from the ground to the top, and `more` that follow the optical depth.
+    fn spread(&self, count: usize, more: usize) -> Axis {
+        let (usual, all) = (count as f64, (count + more) as f64);
+        let share = if more == 0 { BY_OPTICAL_DEPTH } else { (BY_OPTICAL_DEPTH * usual + more as f64) / all };
+        let values: Vec<f64> = self
+            .by_altitude
+            .iter()
+            .zip(&self.by_optical_depth)
+            .map(|(by_altitude, by_optical_depth)| (1.0 - share) * by_altitude + share * by_optical_depth)
+            .collect();
+        let (first, last) = (values[0], values[values.len() - 1]);
         let at = |i: usize| {
-            let wanted = first + (last - first) * i as f64 / (count - 1) as f64;
-            let k = self.values.partition_point(|&v| v <= wanted).clamp(1, self.values.len() - 1);
-            let t = (wanted - self.values[k - 1]) / (self.values[k] - self.values[k - 1]);
+            let wanted = first + (last - first) * i as f64 / (count + more - 1) as f64;
+            let k = values.partition_point(|&v| v <= wanted).clamp(1, values.len() - 1);
+            let t = (wanted - values[k - 1]) / (values[k] - values[k - 1]);
             self.altitudes[k - 1] + t.clamp(0.0, 1.0) * (self.altitudes[k] - self.altitudes[k - 1])
         };
-        Axis::new((0..count).map(at).collect())
+        Axis::new((0..count + more).map(at).collect())
     }
 
     /// `count` levels, and those at which the air changes sharply.
-    fn shells(&self, count: usize) -> Axis {
-        let mut levels = self.spread(count).nodes().to_vec();
+    fn shells(&self, count: usize, more: usize) -> Axis {
+        let mut levels = self.spread(count, more).nodes().to_vec();
         levels.extend(&self.bends);
         levels.sort_by(f64::total_cmp);
         levels.dedup_by(|b, a| *b - *a < 1e-6);
@@ -141,11 +184,12 @@ impl Grid {
     pub fn new(numbers: &Numbers, profile: &OpticalProfile) -> [Self; 2] {
         let radius = profile.planet_radius_km;
         let measure = Measure::new(profile);
+        let more = more_levels(&scattering_depths(profile, numbers.order));
         let make = |altitudes: usize, solar_zenith_angles: usize| {
             let zeniths = ZenithAxis::new(solar_zenith_angles);
             let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
-            let [shells, fine_shells] = [numbers.shells, FINER * numbers.shells].map(|count| measure.shells(count));
-            Self { altitudes: measure.spread(altitudes), shells, fine_shells, zeniths, sun, radius }
+            let [shells, fine_shells] = [1, FINER].map(|finer| measure.shells(finer * numbers.shells, finer * more));
+            Self { altitudes: measure.spread(altitudes, more), shells, fine_shells, zeniths, sun, radius }
         };
         [
             make(numbers.altitudes, numbers.solar_zenith_angles),

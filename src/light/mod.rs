@@ -19,6 +19,7 @@ mod air;
 mod anderson;
 mod angular;
 mod axis;
+mod balance;
 mod contracted;
 mod field;
 pub mod gauss;

@@ -17,7 +17,7 @@ use super::source::{Field, MAX_ORDER, Relative, Shape};
 use super::stokes::{add_tensor, single_dipole};
 use super::sunlight::Sunlight;
 use super::suns::{SunOnRay, Suns};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::quality::Numbers;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -30,8 +30,15 @@ pub const LANES: usize = 32;
 /// Orders at which the field is iterated to convergence: those that carry energy from place to place.
 const LOW_ORDER: usize = 2;
 
-/// Iterations after which the solve goes on with what it has; never reached with air that lets light through.
-const MAX_ITERATIONS: usize = 60;
+/// Most iterations with acceleration, which clear air needs five of, and most without. Acceleration is lost where a few nodes at the terminator do not come to rest.
+const MAX_ACCELERATED: usize = 30;
+const MAX_PLAIN: usize = 80;
+
+/// A relative change from which nothing good comes any more.
+const HOPELESS: f32 = 1e3;
+
+/// Iterations in which the change must fall by a tenth at least.
+const PATIENCE: usize = 15;
 
 /// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
 const FEWEST_AZIMUTHS: usize = 4;
@@ -79,7 +86,7 @@ impl<'a> Target<'a> {
 /// Solves the block of `air`: the low orders on the coarser `iteration_grid` until they agree with themselves, then all on `grid`.
 ///
 /// # Errors
-/// [`crate::Error::Cancelled`].
+/// [`Error::Unsolved`] if they never agree; [`Error::Cancelled`].
 pub fn solve(
     (air, direct): (Air<LANES>, Option<Sunlight<LANES>>),
     grid: &Grid,
@@ -98,19 +105,15 @@ pub fn solve(
 
     let coarse = Target::new(iteration_grid, &air, numbers.iteration_zenith_nodes, limits);
     let once = operator.scatter_sunlight(&coarse, shape.truncated(LOW_ORDER), many.len(), &many, &stage(0.05, 0.15))?;
-    let mut low = once.clone();
-    let mut anderson = Anderson::new();
-    for iteration in 0..MAX_ITERATIONS {
+    let scatter_once_more = |low: &Field<LANES>, iteration: usize| {
         // How many iterations there will be is not known: each takes an eighth of what is left of this part.
         let part = |iteration: usize| 0.4 - 0.25 * 0.875_f64.powi(iteration as i32);
-        let mut next =
-            operator.scatter(&coarse, (iteration_grid, &low), low.shape, &few, &stage(part(iteration), part(iteration + 1)))?;
+        let stage = stage(part(iteration), part(iteration + 1));
+        let mut next = operator.scatter(&coarse, (iteration_grid, low), low.shape, &few, &stage)?;
         next.add(&once);
-        let change = anderson.step(&mut low, next, iteration >= 1);
-        if change < numbers.convergence {
-            break;
-        }
-    }
+        Ok(next)
+    };
+    let low = iterate(&once, numbers.convergence, scatter_once_more)?;
 
     let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
     // Light scattered once is less smooth in azimuth than the rest.
@@ -125,6 +128,41 @@ pub fn solve(
     }
     let field = Relative::new(&field);
     Ok(Block { air, sunlight, direct, field })
+}
+
+/// The field that `scatter_once_more` takes to itself, but for a relative `change`; it gets the field and the number of the iteration.
+fn iterate(
+    once: &Field<LANES>,
+    convergence: f32,
+    scatter_once_more: impl Fn(&Field<LANES>, usize) -> Result<Field<LANES>>,
+) -> Result<Field<LANES>> {
+    let (mut iterations, mut smallest) = (0, f32::INFINITY);
+    for (most, accelerated) in [(MAX_ACCELERATED, true), (MAX_PLAIN, false)] {
+        let mut low = once.clone();
+        let mut anderson = Anderson::new();
+        let mut changes: Vec<f32> = Vec::new();
+        for iteration in 0..most {
+            let next = scatter_once_more(&low, iterations)?;
+            iterations += 1;
+            let change = anderson.step(&mut low, next, accelerated && iteration >= 1);
+            smallest = smallest.min(change);
+            // What is left to come of a plain iteration is a geometric series.
+            let rate = changes.last().map_or(0.0, |last| (change / last).clamp(0.0, 0.99));
+            let left = if accelerated { change } else { change * (1.0_f32).max(rate / (1.0 - rate)) };
+            if left < convergence {
+                return Ok(low);
+            }
+            let stands_still = !accelerated && iteration >= PATIENCE && change > 0.9 * changes[iteration - PATIENCE];
+            if stands_still || change.is_nan() || change > HOPELESS {
+                break;
+            }
+            changes.push(change);
+        }
+    }
+    Err(Error::unsolved(format!(
+        "after {iterations} iterations successive orders of scattering still change it by {:.1} %",
+        100.0 * smallest
+    )))
 }
 
 /// The part of the progress that one application of the operator makes.

@@ -130,12 +130,10 @@ impl<'a> Painter<'a> {
                 *value += light;
             }
         }
+        // A gamut would make 0 of what is not a number.
+        check_finite(row, pixels)?;
         self.conversion.apply(pixels);
-        // Without a branch per value, so that it costs next to nothing.
-        if pixels.iter().fold(true, |finite, [r, g, b]| finite & r.is_finite() & g.is_finite() & b.is_finite()) {
-            return Ok(());
-        }
-        Err(Error::data(format!("the light in row {row} of the probe is not finite")))
+        check_finite(row, pixels)
     }
 
     /// One row of a latitude-longitude image.
@@ -181,6 +179,8 @@ impl<'a> Painter<'a> {
                 self.add_circles(space, row.solid_angle);
                 fold(&space.sum, self.sampling.columns, &self.kernel, out.as_chunks_mut::<3>().0);
                 fold(&space.missing, self.sampling.columns, &self.kernel, missing.as_chunks_mut::<3>().0);
+                check_finite(j, out.as_chunks::<3>().0)?;
+                check_finite(j, missing.as_chunks::<3>().0)?;
             }
             self.parts.finish_one()
         })?;
@@ -233,6 +233,14 @@ impl<'a> Painter<'a> {
     fn mirrored(&self) -> bool {
         self.settings.ground == GroundView::Mirrored && self.settings.extent == Extent::Full
     }
+}
+
+/// Checks that all numbers of row `row` are finite; without a branch per value, so that it costs next to nothing.
+fn check_finite(row: usize, pixels: &[[f32; 3]]) -> Result<()> {
+    if pixels.iter().fold(true, |finite, [a, b, c]| finite & a.is_finite() & b.is_finite() & c.is_finite()) {
+        return Ok(());
+    }
+    Err(Error::data(format!("the light in row {row} of the probe is not finite")))
 }
 
 /// Radiance that the discs and points of `sky` add to pixels, by row.

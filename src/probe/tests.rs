@@ -235,6 +235,23 @@ proptest! {
 }
 
 #[test]
+fn light_that_is_not_finite_is_an_error_in_every_gamut_projection_and_size() {
+    for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let sky = sky(|altitude, azimuth| if altitude > 1.0 && azimuth > 2.0 { wrong } else { 1.0 });
+        for gamut in [Gamut::Keep, Gamut::Desaturate, Gamut::Clip] {
+            for projection in [Projection::LatLong, Projection::Fisheye] {
+                for (width, extent) in [(64, Extent::Full), (1024, Extent::Upper)] {
+                    let settings = ProbeSettings { width, gamut, projection, extent, ..ProbeSettings::default() };
+                    let result = render(&sky, &settings, &Progress::silent());
+                    let Err(crate::Error::Data { what }) = result else { panic!("{wrong} {gamut:?} {projection:?} {width}") };
+                    assert!(what.ends_with("is not finite"), "{what}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_cancelled_render_gives_nothing() {
     let stop = |_: &str, fraction: f64| fraction < 0.5;
     let result = render(&sky(|_, _| 1.0), &settings(64, Rows::Centre), &Progress::new(&stop));

@@ -9,6 +9,7 @@ mod arrays;
 mod bodies;
 mod errors;
 mod filter;
+mod fork;
 mod night;
 mod places;
 mod post;
@@ -28,6 +29,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("InputError", py.get_type::<errors::InputError>())?;
     module.add("DataError", py.get_type::<errors::DataError>())?;
+    module.add("UnsolvedError", py.get_type::<errors::UnsolvedError>())?;
     module.add("Cancelled", py.get_type::<errors::Cancelled>())?;
     module.add("ScaleWarning", py.get_type::<errors::ScaleWarning>())?;
     module.add("SunlightOnlyWarning", py.get_type::<errors::SunlightOnlyWarning>())?;
@@ -97,6 +99,6 @@ fn check_files(inputs: Vec<PathBuf>, outputs: Vec<PathBuf>) -> PyResult<()> {
 /// Run the command line tool with `arguments`, the first being the program's name, and return its exit code.
 #[cfg(feature = "cli")]
 #[pyfunction]
-fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| crate::cli::run(arguments))
+fn run_command_line(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> PyResult<u8> {
+    work::apart(py, || Ok(crate::cli::run(arguments)))
 }

@@ -205,7 +205,7 @@ impl Sky {
     /// Sunrise, sunset, twilights and noon on the local date of this sky's time.
     fn sun_events(&self, py: Python<'_>) -> PyResult<SunEvents> {
         let (place, time) = self.place_and_time()?;
-        let inner = py.detach(|| ephemeris::sun_events(place, time))?;
+        let inner = work::apart(py, || ephemeris::sun_events(place, time))?;
         Ok(SunEvents { inner })
     }
 
@@ -224,7 +224,7 @@ impl Sky {
         let (place, _) = self.place_and_time()?;
         let target = name.parse()?;
         let seconds = arrays::vector("times", times)?;
-        let positions = py.detach(|| {
+        let positions = work::apart(py, || {
             let times = seconds.into_iter().map(Time::from_unix_seconds).collect::<crate::Result<Vec<_>>>()?;
             Ok::<_, crate::Error>(ephemeris::positions(target, place, &times, self.sun_model, self.inner.refraction()))
         })?;
@@ -241,7 +241,7 @@ impl Sky {
     fn rise_and_set(&self, py: Python<'_>, name: &str) -> PyResult<RiseAndSet> {
         let (place, time) = self.place_and_time()?;
         let target = name.parse()?;
-        let inner = py.detach(|| ephemeris::rise_and_set(target, place, time))?;
+        let inner = work::apart(py, || ephemeris::rise_and_set(target, place, time))?;
         Ok(RiseAndSet { inner })
     }
 
@@ -249,7 +249,7 @@ impl Sky {
     /// when, the same for all places.
     fn moon_phases<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
         let (_, time) = self.place_and_time()?;
-        let phases = py.detach(|| next_moon_phases(time))?;
+        let phases = work::apart(py, || next_moon_phases(time))?;
         phases.iter().map(|(phase, time)| Ok((phase.name(), datetime(py, time)?))).collect()
     }
 

@@ -5,6 +5,7 @@
 //! while the work runs.
 
 use super::errors::{Cancelled, DataError};
+use super::fork::{AtWork, in_parallel};
 use crate::error::Result;
 use crate::progress::Progress;
 use pyo3::prelude::*;
@@ -37,12 +38,14 @@ enum LastWord {
 ///
 /// `callback(stage: str, fraction: float)` hears of each stage at least once; `False` from it raises `Cancelled`. An exception that
 /// it raises, or `KeyboardInterrupt`, cancels the work and is raised here: then there is no file of it. Once files have their names nothing is told any more, and a signal
-/// is left to Python. A panic of the work becomes a `DataError`.
+/// is left to Python. A panic of the work becomes a `DataError`. A process that was forked works
+/// with threads of its own, see [`super::fork`].
 pub fn run<T, F>(py: Python<'_>, callback: Option<&Bound<'_, PyAny>>, work: F) -> PyResult<T>
 where
     T: Send,
     F: FnOnce(&Progress<'_>) -> Result<T> + Send,
 {
+    let begun = AtWork::begin()?;
     let callback: Option<Py<PyAny>> = callback.map(|callback| callback.clone().unbind());
     let cancel = AtomicBool::new(false);
     let news = Mutex::new(News::default());
@@ -69,7 +72,7 @@ where
         std::thread::scope(|scope| {
             let worker = scope.spawn(|| {
                 let _announce = Announce { news: &news, wake: &wake };
-                work(&Progress::with_last_word(&listen, &last_word))
+                in_parallel(&begun, || work(&Progress::with_last_word(&listen, &last_word)))
             });
             let mut stopped: Option<PyErr> = None;
             let mut settled = false;
@@ -97,9 +100,19 @@ where
         return Err(reason);
     }
     match outcome {
-        Ok(result) => Ok(result?),
+        Ok(result) => result,
         Err(panic) => Err(DataError::new_err(format!("internal error: {}", panic_message(panic.as_ref())))),
     }
+}
+
+/// Does short `work` with the interpreter released: it tells nothing and cannot be cancelled.
+pub fn apart<T, F>(py: Python<'_>, work: F) -> PyResult<T>
+where
+    T: Send,
+    F: FnOnce() -> Result<T> + Send,
+{
+    let begun = AtWork::begin()?;
+    py.detach(|| in_parallel(&begun, work))
 }
 
 /// Says that the work is over, also when it panics.

@@ -1,13 +1,15 @@
 //! One state of the air together with its solved light.
 
-use super::cache::{Cache, Key, KeyBuilder};
-use crate::atmosphere::{AirParameters, Component, OpticalProfile};
+use super::cache::Cache;
+use super::light_key;
+use super::turn::Turn;
+use crate::atmosphere::{AirParameters, OpticalProfile};
 use crate::error::{Error, Result};
 use crate::light::LightField;
 use crate::progress::Progress;
 use crate::quality::Quality;
 use crate::spectrum::{CubicSpline, WeightsOfAnySource, solar, wavelengths};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 
 /// The air and the light in it. The light is solved once, when it is first needed, and serves every place, time and height.
 pub struct Atmosphere {
@@ -20,8 +22,8 @@ pub struct Atmosphere {
     cache: Option<Cache>,
     weights: OnceLock<WeightsOfAnySource>,
     field: OnceLock<LightField>,
-    /// Held while solving, so that two threads that need the light at once solve it once.
-    solving: Mutex<()>,
+    /// Taken while solving, so that two threads that need the light at once solve it once.
+    solving: Turn,
 }
 
 impl Atmosphere {
@@ -74,7 +76,7 @@ impl Atmosphere {
             cache: None,
             weights: OnceLock::new(),
             field: OnceLock::new(),
-            solving: Mutex::new(()),
+            solving: Turn::default(),
         }
     }
 
@@ -84,10 +86,10 @@ impl Atmosphere {
         Self { cache: cache.filter(|_| self.quality != Quality::Draft), ..self }
     }
 
-    /// Solves the multiple scattering, unless that is done.
+    /// Solves the multiple scattering, unless that is done. A thread that waits for another's solve can be cancelled as well.
     ///
     /// # Errors
-    /// [`Error::Cancelled`].
+    /// [`Error::Unsolved`] for air too thick for the solver; [`Error::Cancelled`].
     pub fn solve(&self, progress: &Progress) -> Result<()> {
         self.field(progress).map(|_| ())
     }
@@ -97,8 +99,7 @@ impl Atmosphere {
         if let Some(field) = self.field.get() {
             return Ok(field);
         }
-        // A thread that panicked while solving left nothing half-done behind.
-        let _solving = self.solving.lock().unwrap_or_else(PoisonError::into_inner);
+        let _solving = self.solving.take(|| progress.report("solve", 0.0))?;
         if let Some(field) = self.field.get() {
             return Ok(field);
         }
@@ -110,7 +111,8 @@ impl Atmosphere {
     }
 
     fn kept_or_solved(&self, cache: &Cache, progress: &Progress) -> Result<LightField> {
-        let (profile, numbers, key) = (&self.profile, &self.quality.numbers(), self.key());
+        let (profile, numbers) = (&self.profile, &self.quality.numbers());
+        let key = light_key::of(profile, numbers, self.polarised);
         progress.report("solve", 0.0)?;
         let kept = cache.load(&key);
         if let Some(field) = kept.and_then(|kept| LightField::from_sections(profile, numbers, self.polarised, &kept).ok()) {
@@ -120,32 +122,6 @@ impl Atmosphere {
         let field = LightField::solve(profile, numbers, self.polarised, progress)?;
         cache.store(&key, &field.to_sections());
         Ok(field)
-    }
-
-    /// Everything that the solution depends on.
-    fn key(&self) -> Key {
-        let mut key = KeyBuilder::of_this_solver();
-        // Every field by its name, so that a new one cannot be forgotten; solar irradiance does not enter the solution.
-        let OpticalProfile {
-            altitudes_km,
-            wavelengths_nm,
-            components,
-            ground_albedo,
-            solar_irradiance: _,
-            planet_radius_km,
-            sun_angular_radius_deg,
-        } = &self.profile;
-        for values in [altitudes_km, wavelengths_nm, ground_albedo, &vec![*planet_radius_km, *sun_angular_radius_deg]] {
-            key.numbers(values);
-        }
-        for Component { name: _, scattering_per_km, absorption_per_km, phase } in components {
-            key.numbers(scattering_per_km);
-            key.numbers(absorption_per_km);
-            // Debug text gives numbers to the last bit.
-            key.text(&format!("{phase:?}"));
-        }
-        key.text(&format!("{:?} {}", self.quality.numbers(), self.polarised));
-        key.finish()
     }
 
     /// Whether the light has been solved.
@@ -236,7 +212,7 @@ pub(crate) fn check_chosen(wavelengths_nm: &[f64]) -> Result<()> {
 mod tests {
     use super::*;
     use crate::light::Observer;
-    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
     fn air(aod550: f64, polarisation: bool, cache: &Cache) -> Atmosphere {
         let parameters = AirParameters { aod550: Some(aod550), ..Default::default() };
@@ -273,8 +249,6 @@ mod tests {
         };
         assert!(seen(&solved) == seen(&kept));
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-        assert_ne!(air(0.1 + 1e-15, true, &cache).key(), solved.key());
-        assert_ne!(air(0.1, false, &cache).key(), solved.key());
     }
 
     #[test]
@@ -302,6 +276,69 @@ mod tests {
             let message = at(wrong).err().unwrap().to_string();
             assert!(message.starts_with(start), "{message}");
         }
+    }
+
+    #[test]
+    fn who_waits_for_another_threads_solve_can_be_cancelled() {
+        let air = Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap();
+        let (inside, outside) = (AtomicBool::new(false), AtomicBool::new(false));
+        // The first solve does not go on until the second has been cancelled.
+        let hold = |_: &str, _: f64| {
+            inside.store(true, Ordering::SeqCst);
+            while !outside.load(Ordering::SeqCst) {
+                std::thread::yield_now();
+            }
+            true
+        };
+        let stop = |_: &str, _: f64| false;
+        std::thread::scope(|scope| {
+            let first = scope.spawn(|| air.solve(&Progress::new(&hold)));
+            while !inside.load(Ordering::SeqCst) {
+                std::thread::yield_now();
+            }
+            assert!(matches!(air.solve(&Progress::new(&stop)), Err(Error::Cancelled)));
+            assert!(!air.is_solved());
+            outside.store(true, Ordering::SeqCst);
+            first.join().unwrap().unwrap();
+        });
+        // Who comes later gets what the first found.
+        assert!(air.is_solved() && air.solve(&Progress::new(&stop)).is_ok());
+    }
+
+    #[test]
+    fn a_cancelled_or_failed_solve_lets_the_next_thread_solve() {
+        let air = Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap();
+        let stop = |_: &str, _: f64| false;
+        assert!(matches!(air.solve(&Progress::new(&stop)), Err(Error::Cancelled)));
+        assert!(reports(&air) > 2);
+    }
+
+    #[test]
+    fn kept_nonsense_is_not_believed() {
+        let folder = tempfile::tempdir().unwrap();
+        let cache = Cache::new(folder.path(), 1 << 30);
+        let solved = air(0.1, false, &cache);
+        solved.solve(&Progress::silent()).unwrap();
+        let sound = solved.field(&Progress::silent()).unwrap().to_sections();
+        let key = light_key::of(solved.profile(), &solved.quality().numbers(), false);
+        type Harm = fn(&mut Vec<Vec<f32>>);
+        let harms: [Harm; 6] = [
+            |sections| sections[0][5] = f32::NAN,
+            |sections| sections[1][0] = f32::INFINITY,
+            |sections| sections[2].iter_mut().for_each(|value| *value = f32::NAN),
+            |sections| sections[3][3] = f32::NEG_INFINITY,
+            |sections| sections[0].iter_mut().for_each(|value| *value *= 100.0),
+            |sections| sections.iter_mut().for_each(|section| section.fill(0.0)),
+        ];
+        for (k, harm) in harms.into_iter().enumerate() {
+            let mut sections = sound.clone();
+            harm(&mut sections);
+            cache.store(&key, &sections);
+            let again = air(0.1, false, &cache);
+            assert!(reports(&again) > 2, "harm {k} was believed");
+            assert!(again.field(&Progress::silent()).unwrap().to_sections() == sound);
+        }
+        assert_eq!(reports(&air(0.1, false, &cache)), 2);
     }
 
     #[test]

@@ -105,7 +105,12 @@ impl Cache {
 
     /// The sections that were stored under `key`.
     pub fn load(&self, key: &Key) -> Option<Vec<Vec<f32>>> {
-        let mut file = File::open(self.folder.join(key.file_name())).ok()?;
+        let path = self.folder.join(key.file_name());
+        // A pipe would wait to be opened until somebody writes to it.
+        if !fs::metadata(&path).ok()?.is_file() {
+            return None;
+        }
+        let mut file = File::open(path).ok()?;
         let length = file.metadata().ok()?.len();
         if length > self.limit {
             return None;
@@ -129,37 +134,47 @@ impl Cache {
             return Ok(());
         }
         fs::create_dir_all(&self.folder)?;
-        let mut file = tempfile::Builder::new().prefix(PREFIX_OF_UNFINISHED).tempfile_in(&self.folder)?;
-        file.write_all(&bytes)?;
         let path = self.folder.join(key.file_name());
-        file.persist(&path)?;
-        self.prune(&path)
+        let stored = self.write(&path, &bytes);
+        // Also if nothing was stored: a full disk is what cleaning helps against.
+        self.prune(&path);
+        stored
     }
 
-    /// Removes the oldest files beyond the limit, but for `newest`, and what killed processes left.
-    fn prune(&self, newest: &Path) -> std::io::Result<()> {
+    fn write(&self, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+        let mut file = tempfile::Builder::new().prefix(PREFIX_OF_UNFINISHED).tempfile_in(&self.folder)?;
+        file.write_all(bytes)?;
+        file.persist(path)?;
+        Ok(())
+    }
+
+    /// Removes the oldest files beyond the limit, but for `newest`, and what killed processes left. Only regular files are touched, and what cannot be read or removed
+    /// keeps nothing else from being removed.
+    fn prune(&self, newest: &Path) {
         let mut found = Vec::new();
         let mut total = 0;
-        for entry in fs::read_dir(&self.folder)? {
-            let entry = entry?;
-            let (path, data) = (entry.path(), entry.metadata()?);
-            let modified = data.modified()?;
-            let unfinished = entry.file_name().to_string_lossy().starts_with(PREFIX_OF_UNFINISHED);
-            if unfinished && modified.elapsed().is_ok_and(|age| age > ABANDONED) {
-                fs::remove_file(path)?;
-            } else if is_ours(&path) && data.is_file() {
+        for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            let Ok(data) = entry.metadata() else { continue };
+            let Ok(modified) = data.modified() else { continue };
+            if !data.is_file() {
+                continue;
+            }
+            if entry.file_name().to_string_lossy().starts_with(PREFIX_OF_UNFINISHED) {
+                if modified.elapsed().is_ok_and(|age| age > ABANDONED) {
+                    let _ = fs::remove_file(path);
+                }
+            } else if is_ours(&path) {
                 total += data.len();
                 found.push((modified, data.len(), path));
             }
         }
         found.sort();
         for (_, length, path) in found {
-            if total > self.limit && path != newest {
-                fs::remove_file(path)?;
+            if total > self.limit && path != newest && fs::remove_file(path).is_ok() {
                 total -= length;
             }
         }
-        Ok(())
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a surface receives, computed from the light field directly and not by way of a picture.
 
 use super::SkyLight;
-use crate::error::Result;
+use crate::error::{Result, check_finite};
 use crate::light::{LightField, Observer, gauss};
 use crate::progress::Progress;
 use rayon::prelude::*;
@@ -67,7 +67,9 @@ pub(super) fn diffuse_horizontal(
             Ok(sum)
         })
         .collect::<Result<Vec<_>>>()?;
-    Ok((0..circles[0].len()).map(|w| circles.iter().map(|circle| circle[w]).sum()).collect())
+    let sums: Vec<f64> = (0..circles[0].len()).map(|w| circles.iter().map(|circle| circle[w]).sum()).collect();
+    check_finite("the irradiance by the sky", &sums)?;
+    Ok(sums)
 }
 
 /// XYZ irradiance of the horizontal plane by `light` without its discs [W m-2]; `gain`: factor on what is smooth in it by the altitude [radians].

@@ -9,11 +9,13 @@ mod filter;
 mod irradiance;
 mod kept_refraction;
 mod layers;
+mod light_key;
 mod model;
 mod night;
 mod place_and_time;
 pub mod preetham;
 mod thesis;
+mod turn;
 
 pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::check_chosen as check_chosen_wavelengths;

@@ -131,6 +131,55 @@ fn what_killed_processes_left_goes() {
 }
 
 #[test]
+fn what_is_no_file_neither_stops_the_cleaning_nor_is_touched() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let old = |path: &Path| File::open(path).unwrap().set_modified(SystemTime::now() - 2 * ABANDONED);
+    // Whichever of them is met first, the others go.
+    let entries: Vec<String> = (0..8).map(|k| format!(".skyprobe-{k}")).collect();
+    for (k, name) in entries.iter().enumerate() {
+        if k % 2 == 0 {
+            fs::create_dir(at(name)).unwrap();
+            fs::write(at(name).join("kept"), "something").unwrap();
+        } else {
+            fs::write(at(name), "").unwrap();
+        }
+        let _ = old(&at(name));
+    }
+    let as_directory = key("directory").file_name();
+    fs::create_dir(at(&as_directory)).unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(at("nowhere"), at(".skyprobe-link")).unwrap();
+    let cache = Cache::new(folder.path(), 1 << 20);
+    cache.store(&key("a"), &sections());
+    let there: Vec<bool> = entries.iter().map(|name| at(name).exists()).collect();
+    assert_eq!(there, [true, false, true, false, true, false, true, false]);
+    assert!(cache.load(&key("a")).is_some());
+    // A folder in the place of an entry: nothing is loaded or stored, and the cleaning goes on.
+    fs::write(at(".skyprobe-late"), "").unwrap();
+    old(&at(".skyprobe-late")).unwrap();
+    assert!(cache.load(&key("directory")).is_none());
+    cache.store(&key("directory"), &sections());
+    assert!(at(&as_directory).is_dir() && !at(".skyprobe-late").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_an_entry_is_not_waited_for_and_gives_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = Cache::new(folder.path(), 1 << 20);
+    let path = folder.path().join(key("a").file_name());
+    let make_pipe = || std::process::Command::new("mkfifo").arg(&path).status().unwrap().success();
+    assert!(make_pipe());
+    let (send, receive) = std::sync::mpsc::channel();
+    let reader = cache.clone();
+    std::thread::spawn(move || send.send(reader.load(&key("a")).is_none()));
+    assert_eq!(receive.recv_timeout(Duration::from_secs(20)), Ok(true), "waits for ever");
+    cache.store(&key("a"), &sections());
+    assert_eq!(cache.load(&key("a")), Some(sections()));
+}
+
+#[test]
 fn a_folder_that_cannot_be_is_as_if_it_were_empty() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("file");

@@ -125,7 +125,8 @@ impl WithSimd for Shading<'_> {
             start = end;
         }
         for value in out.as_flattened_mut() {
-            *value = value.max(0.0);
+            // What is not a number stays so, for the painter to see.
+            *value = if *value < 0.0 { 0.0 } else { *value };
         }
     }
 }

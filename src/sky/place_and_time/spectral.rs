@@ -7,7 +7,7 @@ use super::super::layers::{Layer, LayerScales};
 use super::Sky;
 use super::pictured::Wanted;
 use crate::ephemeris::horizontal_from_direction;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_finite};
 use crate::light::{Gathered, LightField, transverse};
 use crate::progress::Progress;
 use crate::sky::SkyLight;
@@ -31,9 +31,11 @@ impl Sky {
         let sunlight = self.sunlight_in_the_air(wavelengths_nm);
         let rows = self.gather_each(field, directions, progress, |gathered, look| {
             let relative: Vec<f64> = (0..gathered.wavelengths).map(|w| field.radiance(gathered, 0, w, look.cosine)).collect();
-            self.at_wavelengths(&relative, wavelengths_nm, &sunlight).iter().map(|value| value * look.gain).collect::<Vec<_>>()
+            check_finite("the radiance", &relative)?;
+            let absolute = self.at_wavelengths(&relative, wavelengths_nm, &sunlight);
+            Ok(absolute.iter().map(|value| value * look.gain).collect::<Vec<_>>())
         })?;
-        Ok(rows.concat())
+        Ok(rows.into_iter().collect::<Result<Vec<_>>>()?.concat())
     }
 
     /// Stokes parameters I, Q, U of the sky in `directions` at `wavelengths_nm` [W m-2 sr-1 nm-1], the Sun's disc excluded, row-major, shape
@@ -53,9 +55,10 @@ impl Sky {
         let field = self.field(progress)?;
         let sunlight = self.sunlight_in_the_air(wavelengths_nm);
         let nodes = &self.atmosphere.profile().wavelengths_nm;
-        let rows: Vec<Vec<f64>> = self.gather_each(field, directions, progress, |gathered, look| {
+        let rows = self.gather_each(field, directions, progress, |gathered, look| {
             let stokes: Vec<[f64; 3]> =
                 (0..gathered.wavelengths).map(|w| field.stokes(gathered, 0, w, look.transverse, look.cosine)).collect();
+            check_finite("the light", stokes.as_flattened())?;
             let radiance = self.at_wavelengths(&stokes.iter().map(|s| s[0]).collect::<Vec<_>>(), wavelengths_nm, &sunlight);
             // The degree of polarisation is what is smooth over wavelength and may be negative.
             let [q, u] = [1, 2].map(|k| {
@@ -64,9 +67,9 @@ impl Sky {
             let at = |(&wavelength, i): (&f64, f64)| {
                 [i, i * q.value(wavelength), i * u.value(wavelength)].map(|value| value * look.gain)
             };
-            wavelengths_nm.iter().zip(radiance).flat_map(at).collect()
+            Ok(wavelengths_nm.iter().zip(radiance).flat_map(at).collect::<Vec<f64>>())
         })?;
-        Ok(rows.concat())
+        Ok(rows.into_iter().collect::<Result<Vec<_>>>()?.concat())
     }
 
     /// Gathers in each direction and takes what `result` makes of it.
