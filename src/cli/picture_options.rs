@@ -6,7 +6,7 @@ use crate::io::{PictureHints, PictureLimits, read_picture};
 use crate::post::{Picture, Repairs};
 use crate::units::Scale;
 use clap::Args;
-use std::cell::RefCell;
+use std::sync::{Mutex, PoisonError};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ pub struct PictureOptions {
     max_megapixels: Option<f64>,
     /// The notes that were told.
     #[arg(skip)]
-    told: RefCell<BTreeSet<String>>,
+    told: Mutex<BTreeSet<String>>,
 }
 
 impl PictureOptions {
@@ -73,7 +73,7 @@ impl PictureOptions {
     /// Says what of the picture was assumed and what was left aside: each once, whatever the number of pictures.
     fn tell(&self, input: &Path, picture: &Picture) {
         let assumption = picture.assumption().map(|text| format!("{text}; --white-luminance or --scale says otherwise"));
-        let mut told = self.told.borrow_mut();
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         for note in assumption.iter().chain(&picture.notes) {
             if told.insert(note.clone()) {
                 complain(&format!("note: {}: {note}", input.display()));
