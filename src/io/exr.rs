@@ -8,25 +8,33 @@
 //! last rows, with other axes; none of our layouts has columns there, and a reader that believed it would turn the sky.
 //!
 //! Files are written by this module itself (`header`, `blocks`), because attributes in a fixed order make equal probes equal files, and blocks
-//! that stand alone can be packed while the next rows are still being rendered. They are read by the crate `exr`.
+//! that stand alone can be packed while the next rows are still being rendered.
+//!
+//! Files are read by this module too (`part`, `chunks`, `channels`): it takes no more memory than what is there and the limits allow, and reads one layer of many, sub-sampled channels, and what others
+//! write in their headers. Blocks are unpacked by the crate `exr` (`codec`).
 
+mod attributes;
 mod blocks;
+mod channels;
+mod chroma;
+mod chunks;
+mod codec;
+pub(super) mod envmap;
 mod header;
+mod part;
 mod picture;
+mod source;
 
 pub(super) use blocks::Packing;
 pub(super) use header::{header, picture_header};
-pub(super) use picture::read_rgb;
 
-use super::Half;
+use super::read::Raw;
+use super::{Half, PictureLimits};
 use crate::error::{Error, Result};
 use crate::probe::Probe;
-use ::exr::meta::attribute::{AttributeValue, Text};
-use ::exr::meta::header::{ImageAttributes, LayerAttributes};
-use ::exr::prelude::{ReadChannels, ReadLayers, Vec2};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::io::BufReader;
+use std::io::Cursor;
 use std::path::Path;
 
 /// Greatest finite half float.
@@ -90,43 +98,6 @@ pub(super) fn pixel_scale(half: Half, largest: Largest, width: usize) -> Result<
     }
 }
 
-fn string(value: &Text) -> String {
-    let bytes: Vec<u8> = value.to_string().chars().map(|character| character as u8).collect();
-    String::from_utf8_lossy(&bytes).into_owned()
-}
-
-/// Texts and numbers of a header by name, as text.
-fn texts(shared: &ImageAttributes, own: &LayerAttributes) -> BTreeMap<String, String> {
-    let mut attributes = BTreeMap::new();
-    let mut put = |name: &str, value: Option<String>| {
-        if let Some(value) = value {
-            attributes.insert(name.to_owned(), value);
-        }
-    };
-    let number = |value: Option<f32>| value.map(|value| value.to_string());
-    put("whiteLuminance", number(own.white_luminance));
-    put("latitude", number(own.latitude));
-    put("longitude", number(own.longitude));
-    put("altitude", number(own.altitude));
-    put("utcOffset", number(own.utc_offset));
-    put("capDate", own.capture_date.as_ref().map(string));
-    put("wrapmodes", own.wrap_mode_name.as_ref().map(string));
-    put("comments", own.comments.as_ref().map(string));
-    put("software", own.software_name.as_ref().map(string));
-    put("envmap", own.environment_map.as_ref().map(|map| format!("{map:?}")));
-    put("chromaticities", shared.chromaticities.map(|found| format!("{found:?}")));
-    for (name, value) in own.other.iter().chain(&shared.other) {
-        match value {
-            AttributeValue::Text(value) => put(&string(name), Some(string(value))),
-            AttributeValue::F32(value) => put(&string(name), Some(value.to_string())),
-            AttributeValue::F64(value) => put(&string(name), Some(value.to_string())),
-            AttributeValue::I32(value) => put(&string(name), Some(value.to_string())),
-            _ => {}
-        }
-    }
-    attributes
-}
-
 /// What [`read`] found.
 #[derive(Clone, Debug)]
 pub struct Picture {
@@ -134,36 +105,37 @@ pub struct Picture {
     pub width: usize,
     /// Height [pixels].
     pub height: usize,
-    /// Values of R, G and B as stored, row-major (height, width, 3).
+    /// Values of red, green and blue as stored, row-major (height, width, 3).
     pub pixels: Vec<f32>,
     /// The header's texts and numbers by name, as text.
     pub attributes: BTreeMap<String, String>,
 }
 
-/// Reads the RGB channels and the header of an EXR file.
+/// Reads the colours and the header of an EXR file: all data, of the channels that [`read_picture`](super::read_picture) would take.
 ///
 /// # Errors
-/// [`Error::File`] if it cannot be read or has no such channels.
+/// As [`read_within`], with the default limits.
 pub fn read(path: impl AsRef<Path>) -> Result<Picture> {
-    let path = path.as_ref();
-    let file = std::fs::File::open(path).map_err(|error| Error::file(path, error))?;
-    let image = ::exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgb_channels(
-            |size: Vec2<usize>, _| (size.width(), vec![0.0_f32; 3 * size.area()]),
-            |(width, pixels): &mut (usize, Vec<f32>), at: Vec2<usize>, (red, green, blue): (f32, f32, f32)| {
-                let k = 3 * (at.y() * *width + at.x());
-                pixels[k..k + 3].copy_from_slice(&[red, green, blue]);
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(BufReader::new(file))
-        .map_err(|error| Error::file(path, error))?;
-    let layer = image.layer_data;
-    let attributes = texts(&image.attributes, &layer.attributes);
-    Ok(Picture { width: layer.size.width(), height: layer.size.height(), pixels: layer.channel_data.pixels.1, attributes })
+    read_within(path, &PictureLimits::default())
+}
+
+/// Does what [`read`] does, within `limits`.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read, [`Error::Data`] if it has no such channels, [`Error::Input`] if it is over the limits.
+pub fn read_within(path: impl AsRef<Path>, limits: &PictureLimits) -> Result<Picture> {
+    let raw = picture::read_rgb(path.as_ref(), limits, picture::Pixels::Stored)?;
+    Ok(Picture { width: raw.width, height: raw.height, pixels: raw.pixels, attributes: raw.fields })
+}
+
+/// The picture in the file `path`.
+pub(super) fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
+    picture::read_rgb(path, limits, picture::Pixels::Picture)
+}
+
+/// The picture in the bytes of a file, which messages call `path`.
+pub(super) fn parse_rgb(path: &Path, bytes: &[u8], limits: &PictureLimits) -> Result<Raw> {
+    picture::parse_rgb(path, Cursor::new(bytes), limits, picture::Pixels::Picture)
 }
 
 #[cfg(test)]

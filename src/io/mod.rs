@@ -21,7 +21,7 @@ pub use describe::describe;
 pub use limits::PictureLimits;
 pub use metadata::Metadata;
 pub use png::Depth;
-pub use read::{PictureHints, read_hdr_bytes, read_picture};
+pub use read::{PictureHints, read_exr_bytes, read_hdr_bytes, read_picture};
 pub use sample_map::SampleMap;
 pub use stream::render_to_files;
 pub use write::{write_picture, write_sheet, write_toned};

@@ -2,9 +2,9 @@
 //!
 //! | what | where it comes from, first that is there |
 //! |---|---|
-//! | colour space | the caller; chromaticities (EXR), PRIMARIES or FORMAT (HDR); Rec. 709. Primaries of none of our spaces are converted to Rec. 709 |
+//! | colour space | the caller; channels X Y Z or chromaticities (EXR), PRIMARIES or FORMAT (HDR), if they make a space; Rec. 709. Primaries of none of our spaces are converted to Rec. 709 |
 //! | luminance of 1.0 | the caller; `skyprobe.white_luminance`, `whiteLuminance`, `skyprobe.scale`, the first that can be one; 683 cd m-2, as Blender's physical sky, which [`Picture::assumption`] tells |
-//! | projection | the caller; `skyprobe.projection`; perspective, also for 2:1 |
+//! | projection | the caller; `envmap` (EXR); `skyprobe.projection`; perspective, also for 2:1 |
 //! | rows, field of view | the caller; `skyprobe.rows`, `skyprobe.field_of_view_deg`; centre, and 39.6 degrees, Blender's first camera |
 
 use super::{PictureLimits, exr, hdr};
@@ -62,19 +62,30 @@ pub fn read_picture(path: impl AsRef<Path>, hints: &PictureHints) -> Result<Pict
         Some("hdr" | "pic" | "rgbe") => hdr::read_rgb(path, &hints.limits)?,
         _ => return Err(Error::input("input", path.display(), "the name of a file that ends in .exr or .hdr")),
     };
-    picture(raw, hints)
+    picture(path, raw, hints)
 }
 
-/// Reads the content of a Radiance file, as [`read_picture`] does.
+/// Does what [`read_picture`] does with the bytes of an EXR file.
 ///
 /// # Errors
-/// [`Error::Input`] for hints out of range; [`Error::File`] for what is damaged or cut short; [`Error::Data`] for a header that contradicts itself.
-pub fn read_hdr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
-    picture(hdr::read_rgb_bytes(bytes, &hints.limits)?, hints)
+/// As [`read_picture`]; messages call the file `exr`.
+pub fn read_exr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
+    let path = Path::new("exr");
+    picture(path, exr::parse_rgb(path, bytes, &hints.limits)?, hints)
 }
 
-/// The picture that a file holds.
-fn picture(raw: Raw, hints: &PictureHints) -> Result<Picture> {
+/// Does what [`read_picture`] does with the bytes of a Radiance file.
+///
+/// # Errors
+/// As [`read_picture`]; messages call the file `hdr`.
+pub fn read_hdr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
+    let path = Path::new("hdr");
+    picture(path, hdr::parse_rgb(path, bytes, &hints.limits)?, hints)
+}
+
+/// What a file holds, with its meaning.
+fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
+    let raw = map_of_directions(path, raw, hints)?;
     let view = view(&raw.fields, hints)?;
     let mut notes = raw.notes;
     let known = hints.white_luminance.or_else(|| white_luminance(&raw.fields, &mut notes));
@@ -90,6 +101,27 @@ fn picture(raw: Raw, hints: &PictureHints) -> Result<Picture> {
     let luminance = known.unwrap_or(Scale::default().white_luminance());
     let picture = Picture::new(raw.width, raw.height, pixels, color_space, luminance, view)?;
     Ok(Picture { white_luminance_assumed: known.is_none(), notes, ..picture })
+}
+
+/// A picture with the standard attribute `envmap` as a latitude-longitude picture of ours, unless the caller knows it for another.
+fn map_of_directions(path: &Path, mut raw: Raw, hints: &PictureHints) -> Result<Raw> {
+    let rows = match raw.fields.get("envmap").map(String::as_str) {
+        _ if hints.projection.is_some_and(|projection| projection != PictureProjection::LatLong) => return Ok(raw),
+        Some("latlong") => {
+            exr::envmap::shift_columns(raw.width, &mut raw.pixels);
+            Rows::Corner
+        }
+        Some("cube") => {
+            let size = (raw.width, raw.height);
+            (raw.width, raw.height, raw.pixels) = exr::envmap::from_cube(path, &hints.limits, size, &raw.pixels)?;
+            Rows::Centre
+        }
+        _ => return Ok(raw),
+    };
+    // The attribute is never ours: whoever put it there came later.
+    raw.fields.insert("skyprobe.projection".to_owned(), PictureProjection::LatLong.name().to_owned());
+    raw.fields.insert("skyprobe.rows".to_owned(), rows.name().to_owned());
+    Ok(raw)
 }
 
 fn view(fields: &BTreeMap<String, String>, hints: &PictureHints) -> Result<View> {

@@ -1,138 +1,173 @@
-//! Any OpenEXR file of a picture: scan lines or tiles, half or float, any compression that the crate `exr` knows, RGB, RGBA or Y, one layer of many.
+//! Any OpenEXR file of a picture: scan lines or tiles, of any samples and any compression but HTJ2K, one layer of many.
 
-use super::texts;
+use super::channels::{self, Colours, Found};
+use super::chroma::{self, Plane};
+use super::chunks;
+use super::part::{Header, Part, Window};
+use super::source::Source;
 use crate::error::{Error, Result};
-use crate::io::PictureLimits;
 use crate::io::read::Raw;
-use crate::spectrum::Chromaticities;
-use ::exr::image::{AnyChannels, FlatSamples, Layer};
-use ::exr::meta::MetaData;
-use ::exr::prelude::{ReadChannels, ReadLayers};
-use std::io::BufReader;
+use crate::io::{PictureLimits, limits};
+use crate::spectrum::{Chromaticities, ColorSpace};
+use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-/// More bytes than this for each byte of a file do not come out of any of its compressions.
-const GREATEST_COMPRESSION: u64 = 4096;
+/// A large picture ([`LARGE`]) has at least this part of its pixels in the file.
+const LEAST_PART: u64 = 4096;
 
-type AnyLayer = Layer<AnyChannels<FlatSamples>>;
+/// Pixels that a picture may have whatever there is of it.
+const LARGE: u64 = 1 << 24;
 
-/// Where the values of a picture stand: layer and numbers of its channels, one or three.
-struct Found {
-    layer: usize,
-    channels: Vec<usize>,
+/// Which pixels are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pixels {
+    /// Those of the picture; what is outside the data is black, data outside the picture are left out.
+    Picture,
+    /// Those that the file holds.
+    Stored,
 }
 
-/// Reads the picture of an EXR file: channels `R`, `G`, `B`, else those of a layer (of several the one named `Combined`, as in `ViewLayer.Combined.R`, else the first), else `Y`.
-/// Pixels outside the data window are black; those outside the display window are left out.
+/// Reads the picture of an EXR file, of the channels that [`channels`] tells of. Maps of directions (`envmap`) are all of the data, as OpenEXR has it.
 ///
 /// # Errors
-/// [`Error::File`] for a file that is damaged or cut short; [`Error::Data`] if it has no such channels.
-pub fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
-    let failed = |error: ::exr::error::Error| Error::file(path, format!("not a sound OpenEXR file ({error})"));
+/// [`Error::File`] for a file that is damaged, cut short, or of a kind that is not read; [`Error::Data`] if it has no such channels; [`Error::Input`] if it is over the limits.
+pub fn read_rgb(path: &Path, limits: &PictureLimits, pixels: Pixels) -> Result<Raw> {
     let file = std::fs::File::open(path).map_err(|error| Error::file(path, error))?;
-    check_size(path, limits, &MetaData::read_from_file(path, false).map_err(failed)?)?;
-    let reader = ::exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
-    let image = reader.from_buffered(BufReader::new(file)).map_err(failed)?;
-
-    let found = choose(&image.layer_data).ok_or_else(|| {
-        let names: Vec<String> = image.layer_data.iter().flat_map(names).collect();
-        Error::data(format!("{}: no channels R, G, B or Y among {}", path.display(), names.join(", ")))
-    })?;
-    let layer = &image.layer_data[found.layer];
-    let window = image.attributes.display_window;
-    let (width, height) = (window.size.width(), window.size.height());
-    let mut pixels = vec![0.0; 3 * width * height];
-    // Where the data window begins in the picture.
-    let left = i64::from(layer.attributes.layer_position.x()) - i64::from(window.position.x());
-    let top = i64::from(layer.attributes.layer_position.y()) - i64::from(window.position.y());
-    let columns = layer.size.width();
-    for c in 0..3 {
-        let samples = &layer.channel_data.list[found.channels[c.min(found.channels.len() - 1)]].sample_data;
-        for (k, value) in samples.values_as_f32().enumerate() {
-            let (x, y) = (left + (k % columns) as i64, top + (k / columns) as i64);
-            if (0..width as i64).contains(&x) && (0..height as i64).contains(&y) {
-                pixels[3 * (y as usize * width + x as usize) + c] = value;
-            }
-        }
-    }
-    let chromaticities = image.attributes.chromaticities.map(|c| {
-        let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.x()), f64::from(v.y())];
-        Chromaticities { red: pair(c.red), green: pair(c.green), blue: pair(c.blue), white: pair(c.white) }
-    });
-    Ok(Raw { width, height, pixels, chromaticities, fields: texts(&image.attributes, &layer.attributes), notes: Vec::new() })
+    parse_rgb(path, BufReader::new(file), limits, pixels)
 }
 
-/// A damaged header must not ask for more memory than there is.
-fn check_size(path: &Path, limits: &PictureLimits, meta: &MetaData) -> Result<()> {
-    let length = std::fs::metadata(path).map_err(|error| Error::file(path, error))?.len();
-    let mut bytes = 0_u64;
-    for header in &meta.headers {
-        for size in [header.layer_size, header.shared_attributes.display_window.size] {
-            limits.check(path, size.width() as u64, size.height() as u64)?;
-        }
-        if header.deep {
-            return Err(Error::file(path, "deep data, which have no single picture"));
-        }
-        bytes = bytes.saturating_add(4 * header.layer_size.area() as u64 * header.channels.list.len() as u64);
-    }
-    if bytes / GREATEST_COMPRESSION > length.max(1 << 12) {
-        return Err(Error::file(
-            path,
-            format!("the header promises {bytes} bytes, which {length} cannot hold: damaged or cut short"),
-        ));
+/// The same of the bytes of `reader`, which messages call `path`.
+///
+/// # Errors
+/// As [`read_rgb`].
+pub fn parse_rgb(path: &Path, reader: impl Read + Seek, limits: &PictureLimits, pixels: Pixels) -> Result<Raw> {
+    limits.validate()?;
+    let mut source = Source::new(path, reader)?;
+    let header = Header::read(&mut source)?;
+    let found = channels::choose(&header.parts);
+    let found = found.ok_or_else(|| Error::data(format!("{}: {}", path.display(), channels::why_none(&header.parts))))?;
+    let part = &header.parts[found.part];
+    let window = if pixels == Pixels::Stored || part.envmap.is_some() { part.data } else { part.display };
+    check_size(&source, limits, part, window)?;
+
+    let primaries = part.chromaticities.map(|numbers| {
+        let [a, b, c, d, e, f, g, h] = numbers.map(f64::from);
+        Chromaticities { red: [a, b], green: [c, d], blue: [e, f], white: [g, h] }
+    });
+    let notes =
+        primaries.filter(|found| !found.is_usable()).map(|_| "chromaticities: none of a colour space, left aside".to_owned());
+    let primaries = primaries.filter(Chromaticities::is_usable);
+    let pixels = match found.colours {
+        Colours::LuminanceChroma => from_chroma(&mut source, &header, &found, window, primaries.as_ref())?,
+        Colours::Rgb | Colours::Xyz | Colours::Grey => directly(&mut source, &header, &found, window)?,
+    };
+    let (width, height) = window.size();
+    let chromaticities = if found.colours == Colours::Xyz { Some(ColorSpace::Xyz.chromaticities()) } else { primaries };
+    Ok(Raw {
+        width: width as usize,
+        height: height as usize,
+        pixels,
+        chromaticities,
+        fields: part.texts.clone(),
+        notes: notes.into_iter().collect(),
+    })
+}
+
+/// Memory is taken for what is within the limits and, in a large picture, not for nothing.
+fn check_size<R: Read + Seek>(source: &Source<'_, R>, limits: &PictureLimits, part: &Part, window: Window) -> Result<()> {
+    let (data, picture) = (part.data.size(), window.size());
+    let stored = limits.check(source.path(), data.0, data.1)? as u64;
+    let whole = limits.check(source.path(), picture.0, picture.1)? as u64;
+    if whole > LARGE && whole / LEAST_PART > stored {
+        let (size, of) = (format!("{} x {}", picture.0, picture.1), format!("{} x {}", data.0, data.1));
+        return Err(source.unread(format!("OpenEXR with a display window of {size} pixels, all but {of} of them empty: crop it")));
     }
     Ok(())
 }
 
-/// Full names of the channels of a layer, with the layer's own name before them if they do not have it.
-fn names(layer: &AnyLayer) -> Vec<String> {
-    let own = layer.attributes.layer_name.as_ref().map(ToString::to_string).filter(|name| !name.is_empty());
-    let full = |name: String| match &own {
-        Some(own) if !name.starts_with(&format!("{own}.")) => format!("{own}.{name}"),
-        _ => name,
-    };
-    layer.channel_data.list.iter().map(|channel| full(channel.name.to_string())).collect()
+/// Where data stand in a window.
+struct Placement {
+    left: i64,
+    top: i64,
+    width: usize,
+    height: usize,
 }
 
-/// The picture among layers and channels.
-fn choose(layers: &[AnyLayer]) -> Option<Found> {
-    let mut best: Option<(u32, Found)> = None;
-    for (number, layer) in layers.iter().enumerate() {
-        let names = names(layer);
-        let of = |prefix: &str, channel: &str| {
-            let is = |k: &usize| {
-                let whole = layer.channel_data.list[*k].sampling == ::exr::prelude::Vec2(1, 1);
-                whole && split(&names[*k]) == (prefix, channel)
-            };
-            (0..names.len()).find(is)
-        };
-        for name in &names {
-            let (prefix, channel) = split(name);
-            let channels = match channel {
-                "R" => [of(prefix, "R"), of(prefix, "G"), of(prefix, "B")].into_iter().collect::<Option<Vec<_>>>(),
-                // Beside RY and BY it is the luminance of a coloured picture.
-                "Y" if !names.iter().any(|other| split(other) == (prefix, "RY")) => of(prefix, "Y").map(|k| vec![k]),
-                _ => None,
-            };
-            let Some(channels) = channels else { continue };
-            let last = prefix.rsplit('.').next().unwrap_or("");
-            let place = if prefix.is_empty() {
-                0
-            } else if last.eq_ignore_ascii_case("combined") {
-                1
+impl Placement {
+    fn new(data: Window, window: Window) -> Self {
+        let (width, height) = window.size();
+        let from = |data: i32, window: i32| i64::from(data) - i64::from(window);
+        let (left, top) = (from(data.least.0, window.least.0), from(data.least.1, window.least.1));
+        Self { left, top, width: width as usize, height: height as usize }
+    }
+
+    /// The pixels of the row `y` of the data from the column `x` on: index of the first of them in the window, and which of `count` they are.
+    fn row(&self, (x, y): (usize, usize), count: usize) -> Option<(usize, std::ops::Range<usize>)> {
+        let (left, y) = (self.left + x as i64, self.top + y as i64);
+        let y = usize::try_from(y).ok().filter(|y| *y < self.height)?;
+        let from = usize::try_from(-left).unwrap_or(0).min(count);
+        let to = usize::try_from(self.width as i64 - left).unwrap_or(0).min(count);
+        (from < to).then(|| (y * self.width + (left + from as i64) as usize, from..to))
+    }
+}
+
+/// Channels with a sample for each pixel.
+fn directly<R: Read + Seek>(source: &mut Source<'_, R>, header: &Header, found: &Found, window: Window) -> Result<Vec<f32>> {
+    let place = Placement::new(header.parts[found.part].data, window);
+    let mut pixels: Vec<f32> = limits::zeros(source.path(), 3 * place.width * place.height)?;
+    let wanted: Vec<usize> = found.channels.iter().flatten().copied().collect();
+    let is_grey = found.colours == Colours::Grey;
+    chunks::read(source, header, found.part, &wanted, |line| {
+        let Some((first, part)) = place.row(line.first, line.count()) else { return };
+        let targets = pixels.as_chunks_mut::<3>().0[first..].iter_mut();
+        for (pixel, value) in targets.zip(line.values().skip(part.start).take(part.len())) {
+            if is_grey {
+                *pixel = [value; 3];
             } else {
-                2
-            };
-            let rank = place + if channels.len() == 3 { 0 } else { 3 };
-            if best.as_ref().is_none_or(|(other, _)| rank < *other) {
-                best = Some((rank, Found { layer: number, channels }));
+                pixel[line.slot] = value;
             }
         }
-    }
-    best.map(|(_, found)| found)
+    })?;
+    Ok(pixels)
 }
 
-/// Layer and channel of a name such as `ViewLayer.Combined.R`.
-fn split(name: &str) -> (&str, &str) {
-    name.rsplit_once('.').unwrap_or(("", name))
+/// Luminance and chroma.
+fn from_chroma<R: Read + Seek>(
+    source: &mut Source<'_, R>,
+    header: &Header,
+    found: &Found,
+    window: Window,
+    primaries: Option<&Chromaticities>,
+) -> Result<Vec<f32>> {
+    let part = &header.parts[found.part];
+    let (width, height) = part.data.size();
+    let (width, height) = (width as usize, height as usize);
+    let mut planes = Vec::new();
+    for channel in &found.channels {
+        // Chroma that is not there is that of white.
+        let sampling = channel.map_or((width, height), |number| part.channels[number].sampling);
+        let (columns, rows) = (width / sampling.0, height / sampling.1);
+        let values = limits::zeros(source.path(), columns * rows)?;
+        planes.push(Plane { width: columns, height: rows, sampling, values });
+    }
+    let slots: Vec<usize> = (0..3).filter(|&slot| found.channels[slot].is_some()).collect();
+    let wanted: Vec<usize> = found.channels.iter().flatten().copied().collect();
+    chunks::read(source, header, found.part, &wanted, |line| {
+        let plane = &mut planes[slots[line.slot]];
+        let at = line.first.1 * plane.width + line.first.0;
+        plane.values[at..].iter_mut().zip(line.values()).for_each(|(target, value)| *target = value);
+    })?;
+    let mut colours: Vec<f32> = limits::zeros(source.path(), 3 * width * height)?;
+    chroma::colours(&planes[0], [&planes[1], &planes[2]], chroma::luminance_weights(primaries), &mut colours);
+    if window == part.data {
+        return Ok(colours);
+    }
+    let place = Placement::new(part.data, window);
+    let mut pixels: Vec<f32> = limits::zeros(source.path(), 3 * place.width * place.height)?;
+    for (y, row) in colours.chunks(3 * width).enumerate() {
+        if let Some((first, part)) = place.row((0, y), width) {
+            pixels[3 * first..3 * (first + part.len())].copy_from_slice(&row[3 * part.start..3 * part.end]);
+        }
+    }
+    Ok(pixels)
 }

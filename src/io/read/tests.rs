@@ -99,10 +99,13 @@ fn the_picture_among_the_channels_is_found() {
     let layer = vec![("diffuse.R", floats(5.0)), ("diffuse.G", floats(6.0)), ("diffuse.B", floats(7.0)), ("Y", floats(1.0))];
     assert_eq!(first(layer, None).unwrap(), [5.0, 6.0, 7.0]);
     assert_eq!(first(vec![("Y", halves(5.0))], None).unwrap(), [5.0; 3]);
-    let luminance_and_chroma = vec![("Y", floats(5.0)), ("RY", floats(0.1)), ("BY", floats(0.1))];
-    assert!(first(luminance_and_chroma, None).is_err());
+    let luminance_and_chroma = vec![("Y", floats(5.0)), ("RY", floats(0.5)), ("BY", floats(-0.25))];
+    let [red, green, blue] = first(luminance_and_chroma, None).unwrap();
+    // By the definition of chroma, and luminance of Rec. 709.
+    assert_eq!((red, blue), (7.5, 3.75));
+    assert!((0.2126 * red + 0.7152 * green + 0.0722 * blue - 5.0).abs() < 1e-3);
     let message = first(vec![("Z", floats(5.0)), ("id.X", floats(1.0))], None).unwrap_err().to_string();
-    assert!(message.contains("no channels R, G, B or Y among Z, id.X"), "{message}");
+    assert!(message.contains("or Y among Z, id.X"), "{message}");
 }
 
 #[test]
