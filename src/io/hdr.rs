@@ -11,7 +11,7 @@ mod rows;
 mod write;
 
 pub use read::header_fields;
-pub(super) use read::{read_rgb, read_rgb_bytes};
+pub(super) use read::{parse_rgb, read_rgb};
 pub(super) use write::{header, picture_header};
 
 use rayon::prelude::*;

@@ -2,8 +2,6 @@
 
 use crate::error::{Error, Result, check_range};
 use crate::post::picture::MAX_SIDE;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 /// Most pixels of any picture [millions]: [`MAX_SIDE`] squared.
@@ -72,25 +70,6 @@ fn no_memory<T>(path: &Path, count: usize) -> Error {
     Error::file(path, format!("there is no memory for the {megabytes:.0} MB that its content takes"))
 }
 
-/// The content of a file of at most `most` bytes.
-///
-/// # Errors
-/// [`Error::File`] if it cannot be read or is longer.
-pub(super) fn read_file(path: &Path, most: u64) -> Result<Vec<u8>> {
-    let failed = |error: std::io::Error| Error::file(path, error);
-    let file = File::open(path).map_err(failed)?;
-    let length = file.metadata().map_err(failed)?.len();
-    let longer = || Error::file(path, format!("it is longer than the {most} bytes that such a picture can take"));
-    if length > most {
-        return Err(longer());
-    }
-    let mut bytes = Vec::new();
-    bytes.try_reserve_exact(length as usize + 1).map_err(|_| no_memory::<u8>(path, length as usize))?;
-    // What is no plain file has no length of its own.
-    file.take(most + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > most { Err(longer()) } else { Ok(bytes) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,15 +101,5 @@ mod tests {
         assert_eq!(zeros::<f32>(path, 3).unwrap(), [0.0; 3]);
         let message = zeros::<f32>(path, usize::MAX / 8).unwrap_err().to_string();
         assert!(message.starts_with("a.exr: there is no memory for the"), "{message}");
-    }
-
-    #[test]
-    fn files_are_read_up_to_their_bound() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.hdr");
-        std::fs::write(&path, [7; 100]).unwrap();
-        assert_eq!(read_file(&path, 100).unwrap(), [7; 100]);
-        assert!(read_file(&path, 99).unwrap_err().to_string().contains("longer than the 99 bytes"));
-        assert!(matches!(read_file(&folder.path().join("none"), 1), Err(Error::File { .. })));
     }
 }

@@ -75,12 +75,13 @@ pub fn read_exr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
     picture(path, exr::parse_rgb(path, bytes, &hints.limits)?, hints)
 }
 
-/// Reads the content of a Radiance file, as [`read_picture`] does.
+/// Does what [`read_picture`] does with the bytes of a Radiance file.
 ///
 /// # Errors
-/// As [`read_picture`]; messages call the file `bytes`.
+/// As [`read_picture`]; messages call the file `hdr`.
 pub fn read_hdr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
-    picture(Path::new("hdr"), hdr::read_rgb_bytes(bytes, &hints.limits)?, hints)
+    let path = Path::new("hdr");
+    picture(path, hdr::parse_rgb(path, bytes, &hints.limits)?, hints)
 }
 
 /// What a file holds, with its meaning.

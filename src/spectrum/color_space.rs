@@ -46,15 +46,22 @@ impl Chromaticities {
         [ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz].into_iter().find(is)
     }
 
-    /// Whether they make a space: numbers, primaries that are not on one line, a white that has luminance. Files with others mean nothing by them.
+    /// Whether they make a space: numbers, primaries that are not on one line, a white that has luminance and lies between them. Files with others mean nothing by them.
     pub fn is_usable(&self) -> bool {
         if self.space().is_some() {
             return true;
         }
         let Self { red: [a, b], green: [c, d], blue: [e, f], white: [g, h] } = *self;
-        let area = (c - a) * (f - b) - (e - a) * (d - b);
+        let triangle = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2], [cx, cy]: [f64; 2]| (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
+        let area = triangle(self.red, self.green, self.blue);
+        let (red, green, blue, white) = (self.red, self.green, self.blue, self.white);
+        let parts = [triangle(white, green, blue), triangle(red, white, blue), triangle(red, green, white)];
         let numbers = [a, b, c, d, e, f, g, h].iter().all(|value| value.is_finite() && value.abs() < 1e3);
-        numbers && area.abs() > 1e-6 && [b, d, f].iter().all(|y| *y != 0.0) && h > 0.0 && g + h > 0.0
+        numbers
+            && area.abs() > 1e-6
+            && [b, d, f].iter().all(|y| *y != 0.0)
+            && h > 0.0
+            && parts.iter().all(|part| part / area > 1e-6)
     }
 
     /// The inverse of [`Self::matrix_to_xyz`].
@@ -243,6 +250,7 @@ mod tests {
             make([0.6, 0.3], [0.4, 0.3], [0.2, 0.3], [0.3, 0.3]),
             Chromaticities { white: [0.3, 0.0], ..good },
             Chromaticities { white: [0.3, -0.3], ..good },
+            Chromaticities { white: [0.9, 0.9], ..good },
             Chromaticities { red: [f64::NAN, 0.3], ..good },
             Chromaticities { blue: [0.1, f64::INFINITY], ..good },
         ] {

@@ -181,21 +181,11 @@ fn number_length(bytes: &[u8]) -> usize {
     }
 }
 
-/// x and y of red, green, blue and white, if a colour space can have them: a triangle with the white in it.
+/// x and y of red, green, blue and white, if a colour space can have them.
 fn primaries(text: &str) -> Option<Chromaticities> {
-    let numbers: [f64; 8] = leading_numbers(text)?;
-    let [a, b, c, d, e, f, g, h] = numbers;
-    let area = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2], [cx, cy]: [f64; 2]| (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
-    let (red, green, blue, white) = ([a, b], [c, d], [e, f], [g, h]);
-    let whole = area(red, green, blue);
-    let parts = [area(white, green, blue), area(red, white, blue), area(red, green, white)];
-    // A luminance of 0 or an infinite amount of a primary is what no matrix can have.
-    let sound = numbers.iter().all(|value| value.abs() <= 2.0)
-        && [b, d, f].iter().all(|y| *y != 0.0)
-        && h > 1e-3
-        && whole.abs() > 1e-6
-        && parts.iter().all(|part| part / whole > 1e-4);
-    sound.then_some(Chromaticities { red, green, blue, white })
+    let [a, b, c, d, e, f, g, h] = leading_numbers(text)?;
+    let found = Chromaticities { red: [a, b], green: [c, d], blue: [e, f], white: [g, h] };
+    found.is_usable().then_some(found)
 }
 
 /// Fields `name.1`, `name.2`, ... as one field `name`, as [`put_field`](super::put_field) has divided it, and all others without white space around them.

@@ -29,9 +29,12 @@ pub fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
     parse(&mut open(path)?, path, limits)
 }
 
-/// The same for the content of a file.
-pub fn read_rgb_bytes(bytes: &[u8], limits: &PictureLimits) -> Result<Raw> {
-    parse(&mut Cursor::new(bytes), Path::new("bytes"), limits)
+/// The same of `bytes`, which messages call `path`.
+///
+/// # Errors
+/// As [`read_rgb`].
+pub fn parse_rgb(path: &Path, bytes: &[u8], limits: &PictureLimits) -> Result<Raw> {
+    parse(&mut Cursor::new(bytes), path, limits)
 }
 
 /// Our own fields in the header of a Radiance file that begins with `bytes`, by their full names such as `skyprobe.config`; those that were divided over several
@@ -62,7 +65,8 @@ fn parse<R: BufRead + Seek>(reader: &mut R, path: &Path, limits: &PictureLimits)
     let failed = |error: std::io::Error| Error::file(path, error);
     let header = Header::read(reader).map_err(told)?;
     let (mut left, mut bytes) = (LONGEST_SIZE, Vec::new());
-    let size = line(reader, &mut left, &mut bytes).ok().flatten().ok_or_else(|| told("the line of its size is missing".to_owned()))?;
+    let size =
+        line(reader, &mut left, &mut bytes).ok().flatten().ok_or_else(|| told("the line of its size is missing".to_owned()))?;
     let layout = Layout::of(&size).ok_or_else(|| told(format!("{:?} is not its size", size.trim())))?;
     let start = reader.stream_position().map_err(failed)?;
     let bytes = reader.seek(SeekFrom::End(0)).map_err(failed)?.saturating_sub(start);

@@ -12,7 +12,7 @@ fn file(header: &str, pixels: &[u8]) -> Vec<u8> {
 }
 
 fn read(header: &str, pixels: &[u8]) -> Result<Raw> {
-    read_rgb_bytes(&file(header, pixels), &PictureLimits::default())
+    parse_rgb(Path::new("a.hdr"), &file(header, pixels), &PictureLimits::default())
 }
 
 #[test]
@@ -111,26 +111,26 @@ fn a_small_file_does_not_ask_for_much_memory() {
     // Rows of one colour: 12 bytes for 32768 pixels.
     let crowded = |height: usize| file(&format!("#?RADIANCE\n\n-Y {height} +X 32768\n"), &one_colour(32768).repeat(height));
     let limits = PictureLimits::default();
-    let message = read_rgb_bytes(&crowded(16384), &limits).unwrap_err().to_string();
+    let message = parse_rgb(Path::new("a.hdr"), &crowded(16384), &limits).unwrap_err().to_string();
     assert!(message.starts_with("max_megapixels = 256: must be at least 536.8"), "{message}");
-    let message = read_rgb_bytes(&crowded(4096), &limits).unwrap_err().to_string();
+    let message = parse_rgb(Path::new("a.hdr"), &crowded(4096), &limits).unwrap_err().to_string();
     assert!(
         message.contains("max_megapixels = 256: must be at least 1073.741824") && message.contains("of 49152 bytes"),
         "{message}"
     );
-    let raw = read_rgb_bytes(&crowded(16), &limits).unwrap();
+    let raw = parse_rgb(Path::new("a.hdr"), &crowded(16), &limits).unwrap();
     assert!(raw.pixels.as_chunks::<3>().0.iter().all(|pixel| *pixel == [1.0, 0.5, 0.25]));
     // What the limit allows can be raised.
     let few = PictureLimits { max_megapixels: 1.0 };
-    assert!(read_rgb_bytes(&crowded(16), &few).unwrap_err().to_string().contains("must be at least 4.194304"));
-    assert!(read_rgb_bytes(&crowded(16), &PictureLimits { max_megapixels: 4.194_304 }).is_ok());
+    assert!(parse_rgb(Path::new("a.hdr"), &crowded(16), &few).unwrap_err().to_string().contains("must be at least 4.194304"));
+    assert!(parse_rgb(Path::new("a.hdr"), &crowded(16), &PictureLimits { max_megapixels: 4.194_304 }).is_ok());
 
     // Rows that are not there.
     let zeros = file("#?RADIANCE\n\n-Y 15000 +X 15000\n", &[0; 180_000]);
-    let message = read_rgb_bytes(&zeros, &PictureLimits { max_megapixels: 1073.0 }).unwrap_err().to_string();
+    let message = parse_rgb(Path::new("a.hdr"), &zeros, &PictureLimits { max_megapixels: 1073.0 }).unwrap_err().to_string();
     assert!(message.contains("must be at least 1073.741824"), "{message}");
     let all = PictureLimits { max_megapixels: ALL_MEGAPIXELS };
-    let message = read_rgb_bytes(&zeros, &all).unwrap_err().to_string();
+    let message = parse_rgb(Path::new("a.hdr"), &zeros, &all).unwrap_err().to_string();
     assert!(message.contains("ends early in line 4 of 15000"), "{message}");
 }
 
@@ -161,7 +161,7 @@ fn sound(kind: usize) -> Vec<u8> {
 #[test]
 fn pictures_of_every_kind_are_sound() {
     for kind in 0..4 {
-        read_rgb_bytes(&sound(kind), &PictureLimits::default()).unwrap();
+        parse_rgb(Path::new("a.hdr"), &sound(kind), &PictureLimits::default()).unwrap();
     }
 }
 
@@ -190,7 +190,7 @@ proptest! {
             bytes.truncate(length.index(bytes.len() + 1));
         }
         let limits = PictureLimits { max_megapixels: 1.0 };
-        if let Ok(raw) = read_rgb_bytes(&bytes, &limits) {
+        if let Ok(raw) = parse_rgb(Path::new("a.hdr"), &bytes, &limits) {
             prop_assert_eq!(raw.pixels.len(), 3 * raw.width * raw.height);
             prop_assert!(raw.pixels.len() <= 3_000_000);
         }
@@ -199,6 +199,6 @@ proptest! {
     #[test]
     fn anything_is_a_picture_or_an_error(bytes in prop::collection::vec(any::<u8>(), 0..300), head in 0_usize..3) {
         let head = ["", "#?RADIANCE\n\n-Y 2 +X 20\n", "\n+X 5 +Y 5\n"][head];
-        let _ = read_rgb_bytes(&file(head, &bytes), &PictureLimits { max_megapixels: 1.0 });
+        let _ = parse_rgb(Path::new("a.hdr"), &file(head, &bytes), &PictureLimits { max_megapixels: 1.0 });
     }
 }
