@@ -139,6 +139,9 @@ pub(super) fn parse_rgb(path: &Path, bytes: &[u8], limits: &PictureLimits) -> Re
 }
 
 #[cfg(test)]
+mod foreign;
+
+#[cfg(test)]
 mod tests {
     use super::super::{FileOptions, Metadata, save, tests::gradient};
     use super::*;

@@ -199,7 +199,7 @@ fn only(parts: &[Part]) -> Option<Found> {
     };
     let mut lights = all.filter(is_light);
     match (lights.next(), lights.next()) {
-        (Some((part, channel)), None) if !parts[part].deep => {
+        (Some((part, channel)), None) if !parts[part].deep && parts[part].channels[channel].sampling == (1, 1) => {
             Some(Found { part, colours: Colours::Grey, channels: vec![Some(channel)] })
         }
         _ => None,

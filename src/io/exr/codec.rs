@@ -45,10 +45,15 @@ pub fn raw_size(channels: &[Channel], area: &Area) -> Option<usize> {
 pub const fn rows_of(compression: u8) -> u64 {
     match compression {
         3 | 5 => 16,
-        4 | 6 | 7 | 8 | 10 => 32,
-        9 | 11 => 256,
+        4 | 6 | 7 | 8 | 11 => 32,
+        9 | 10 => 256,
         _ => 1,
     }
+}
+
+/// What a file of a compression that is not read is.
+fn unread(compression: &str) -> String {
+    format!("OpenEXR with the compression {compression}, which is not read: convert it to ZIP or PIZ")
 }
 
 /// A compression that is read.
@@ -84,13 +89,10 @@ impl Codec {
             5 => Self::Pxr24,
             6 | 7 => Self::B44(number),
             8 | 9 => Self::Dwa(number),
-            10 | 11 => {
-                return Err(
-                    "OpenEXR with the compression HTJ2K (High-Throughput JPEG 2000), which is not read: convert it to ZIP or PIZ"
-                        .to_owned(),
-                );
-            }
-            other => return Err(format!("OpenEXR with the compression {other}, which is of a later version and not read")),
+            10 | 11 => return Err(unread("HTJ2K (High-Throughput JPEG 2000)")),
+            12 => return Err(unread("LJ2K (JPEG 2000)")),
+            13 => return Err(unread("ZSTD")),
+            other => return Err(unread(&other.to_string())),
         })
     }
 

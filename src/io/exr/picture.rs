@@ -54,8 +54,13 @@ pub fn parse_rgb(path: &Path, reader: impl Read + Seek, limits: &PictureLimits, 
         let [a, b, c, d, e, f, g, h] = numbers.map(f64::from);
         Chromaticities { red: [a, b], green: [c, d], blue: [e, f], white: [g, h] }
     });
-    let notes =
-        primaries.filter(|found| !found.is_usable()).map(|_| "chromaticities: none of a colour space, left aside".to_owned());
+    let mut notes = Vec::new();
+    if primaries.is_some_and(|found| !found.is_usable()) {
+        notes.push("chromaticities: none of a colour space, left aside".to_owned());
+    }
+    if let Some(ratio) = part.texts.get("pixelAspectRatio").filter(|ratio| ratio.as_str() != "1") {
+        notes.push(format!("pixelAspectRatio={ratio}: pixels are taken as square"));
+    }
     let primaries = primaries.filter(Chromaticities::is_usable);
     let pixels = match found.colours {
         Colours::LuminanceChroma => from_chroma(&mut source, &header, &found, window, primaries.as_ref())?,
@@ -63,14 +68,7 @@ pub fn parse_rgb(path: &Path, reader: impl Read + Seek, limits: &PictureLimits, 
     };
     let (width, height) = window.size();
     let chromaticities = if found.colours == Colours::Xyz { Some(ColorSpace::Xyz.chromaticities()) } else { primaries };
-    Ok(Raw {
-        width: width as usize,
-        height: height as usize,
-        pixels,
-        chromaticities,
-        fields: part.texts.clone(),
-        notes: notes.into_iter().collect(),
-    })
+    Ok(Raw { width: width as usize, height: height as usize, pixels, chromaticities, fields: part.texts.clone(), notes })
 }
 
 /// Memory is taken for what is within the limits and, in a large picture, not for nothing.
