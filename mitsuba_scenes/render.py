@@ -155,12 +155,16 @@ def load_scene(mi, scene_path, probe_path, width, spp):
 
 def describe(mi, scene, luminance):
     """What the header of the picture says: the luminance of a pixel of value 1, and the camera's field of view."""
+    import numpy as np
+
     told = {"skyprobe.color_space": "lin_rec709"}
     if luminance is not None:
         told["skyprobe.white_luminance"] = repr(luminance)
     camera = mi.traverse(scene.sensors()[0])
     if "x_fov" in camera:
-        told |= {"skyprobe.projection": "perspective", "skyprobe.field_of_view_deg": f"{float(camera['x_fov']):.7g}"}
+        # A number, or in vectorised variants an array of one.
+        angle = np.array(camera["x_fov"]).item()
+        told |= {"skyprobe.projection": "perspective", "skyprobe.field_of_view_deg": f"{angle:.7g}"}
     return told
 
 

@@ -7,7 +7,8 @@ import inspect
 import math
 import pathlib
 import warnings
-from typing import Any
+from collections.abc import Callable
+from typing import Any, Literal
 
 import numpy
 import pytest
@@ -106,7 +107,8 @@ def test_shapes_and_cancelling(lamp: numpy.ndarray[Any, Any]) -> None:
 
 
 def test_a_scale_that_is_not_known_is_told_and_one_that_is_given_counts(lamp: numpy.ndarray[Any, Any]) -> None:
-    for function in (post.glare, post.tone_map, post.auto_exposure):
+    functions: tuple[Callable[..., Any], ...] = (post.glare, post.tone_map, post.auto_exposure)
+    for function in functions:
         with pytest.warns(sp.ScaleWarning, match=r"^white luminance unknown: 683 cd/m2 assumed \(scale blender\); scale= or white_luminance= says otherwise$"):
             function(lamp)
         with warnings.catch_warnings():
@@ -118,7 +120,8 @@ def test_a_scale_that_is_not_known_is_told_and_one_that_is_given_counts(lamp: nu
             warnings.simplefilter("error", sp.ScaleWarning)
             with pytest.raises(sp.ScaleWarning):
                 function(lamp)
-    meters = {scale: post.auto_exposure(lamp, scale=scale).log_average for scale in ("blender", "mitsuba", "luminance")}
+    scales: tuple[Literal["blender", "mitsuba", "luminance"], ...] = ("blender", "mitsuba", "luminance")
+    meters = {scale: post.auto_exposure(lamp, scale=scale).log_average for scale in scales}
     assert meters["mitsuba"] / meters["blender"] == pytest.approx(106.857)
     assert meters["blender"] / meters["luminance"] == pytest.approx(683.0)
     assert post.auto_exposure(lamp, white_luminance=683.0).log_average == meters["blender"]
