@@ -582,7 +582,7 @@ fn pictures_are_brought_to_a_screen_one_by_one_all_ways_and_in_sequence() {
         (&["a.exr", "x.hdr", "--display", "display_p3"], "display = display_p3: must be"),
         (&["a.exr", "b.hdr", "x.png"], "output = x.png: must be an existing folder for 2 pictures"),
         (&["a.exr", "a.exr", "film"], "input = a.exr: must be of another name"),
-        (&["a.exr", ".", "--format", "exr"], "must be another file than the input"),
+        (&["a.exr", ".", "--format", "exr"], "must be another file than input"),
         (&["nowhere.exr", "x.png"], "nowhere.exr"),
         (&["a.exr", "x.png", "--aperture", "8"], "--shutter"),
     ] {

@@ -76,7 +76,7 @@ impl Pending {
             return Err(Error::file(path, format!("there is no folder {}", folder.display())));
         }
         let replaced = replaceable(path, &target)?;
-        leftovers::remove_abandoned(folder);
+        leftovers::clean(folder);
         let (temporary, entry) = temporary(path, folder, replaced.as_ref())?;
         Ok(Self { path: path.to_path_buf(), target, temporary, _entry: entry })
     }

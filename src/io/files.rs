@@ -59,12 +59,12 @@ impl Identity {
 
     #[cfg(windows)]
     fn of_standard_input() -> Option<Self> {
-        numbers_of(winapi_util::HandleRef::stdin()).map(Self::File)
+        numbers_of(&winapi_util::HandleRef::stdin()).map(Self::File)
     }
 
     #[cfg(windows)]
     fn of_standard_output() -> Option<Self> {
-        numbers_of(winapi_util::HandleRef::stdout()).map(Self::File)
+        numbers_of(&winapi_util::HandleRef::stdout()).map(Self::File)
     }
 
     #[cfg(not(any(unix, windows)))]
@@ -96,7 +96,11 @@ fn numbers(path: &Path) -> Option<[u64; 2]> {
 }
 
 #[cfg(windows)]
-fn numbers_of(handle: impl winapi_util::AsHandleRef) -> Option<[u64; 2]> {
+fn numbers_of(handle: &impl winapi_util::AsHandleRef) -> Option<[u64; 2]> {
+    // Pipes and consoles have no numbers of their own.
+    if !winapi_util::file::typ(handle).ok()?.is_disk() {
+        return None;
+    }
     let found = winapi_util::file::information(handle).ok()?;
     Some([found.volume_serial_number(), found.file_index()])
 }

@@ -6,9 +6,9 @@
 //! others (or of this one before it was started again) must also be old. Where a lock cannot be asked for, nothing is removed.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::path::Path;
-use std::sync::OnceLock;
-use std::time::Duration;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 const PREFIX: &str = ".skyprobe-";
 const SUFFIX: &str = ".part";
@@ -35,8 +35,18 @@ pub(super) fn lock(file: &File, path: &Path) -> bool {
     }
 }
 
+/// Removes what killed processes left in `folder`, unless this process looked there within the last second: a sequence of pictures goes into one folder, which has many by then.
+pub(super) fn clean(folder: &Path) {
+    static LAST: Mutex<Option<(PathBuf, Instant)>> = Mutex::new(None);
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if !last.as_ref().is_some_and(|(known, when)| known == folder && when.elapsed() < Duration::from_secs(1)) {
+        remove_abandoned(folder);
+        *last = Some((folder.to_path_buf(), Instant::now()));
+    }
+}
+
 /// Removes what killed processes left in `folder`. Whatever cannot be read, locked or removed stays.
-pub(super) fn remove_abandoned(folder: &Path) {
+fn remove_abandoned(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         if is_unfinished(&entry.file_name().to_string_lossy()) {

@@ -225,6 +225,7 @@ fn collect(
     let width = azimuths.len() * stokes;
     let mut field = Field::dark(target.grid, shape);
     let (done, levels) = (AtomicUsize::new(0), target.grid.altitudes.len());
+    let report = |done: usize| (stage.progress)(stage.from + (stage.to - stage.from) * done as f64 / levels as f64);
     let at_ground = field
         .values
         .par_chunks_exact_mut(zeniths * shape.count())
@@ -233,6 +234,8 @@ fn collect(
             let mut radiance = vec![splat(0.0); zeniths * width];
             let mut irradiance = vec![splat(0.0); zeniths];
             for (&(mu, weight), ray) in target.directions[level].iter().zip(&target.rays[level]) {
+                // A level of the finest grids takes long.
+                report(done.load(Ordering::Relaxed))?;
                 radiance.fill(splat(0.0));
                 radiance_of(ray, &mut radiance);
                 project(shape, mu, weight, azimuths, &radiance, values);
@@ -244,8 +247,7 @@ fn collect(
                     }
                 }
             }
-            let share = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / levels as f64;
-            (stage.progress)(stage.from + (stage.to - stage.from) * share)?;
+            report(done.fetch_add(1, Ordering::Relaxed) + 1)?;
             Ok(irradiance)
         })
         .collect::<Result<Vec<_>>>()?;
