@@ -91,8 +91,8 @@ def checked_number(key, value):
 
 
 def _text(key, value):
-    if not isinstance(value, str):
-        raise ValueError(f"{key} = {value!r}: must be a text")
+    if not isinstance(value, str) or not value.isprintable():
+        raise ValueError(f"{key} = {value!r}: must be a text of letters that can be shown")
     return value
 
 

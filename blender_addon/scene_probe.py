@@ -154,13 +154,9 @@ def _show(scene, image, result, what):
             thing = lamps.link(scene, getattr(settings, name), title)
             setattr(settings, name, thing)
             lamps.shine(thing, lamp, settings.north)
-    if sun_in_map:
-        world_nodes.set_disc_in_map(world, result.sun, result.request.width)
-    elif result.moon is not None and moon_in_map and result.moon.altitude_deg > result.sun.altitude_deg:
-        # By day the Moon in the map is too dim to be sampled by itself.
-        world_nodes.set_moon_in_map(world, result.request.width, result.sun.altitude_deg)
-    else:
-        world_nodes.set_discs_as_lamps(world)
+    disc = world_sun.disc_of(result)
+    world_nodes.set_importance(world, result)
+    world_nodes.set_disc(world, None if disc.is_dark else disc)
     settings.sun_azimuth_deg = result.sun.azimuth_deg
     settings.moon_azimuth_deg = result.moon.azimuth_deg if result.moon else 0.0
     settings.shown = what

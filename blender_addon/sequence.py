@@ -130,9 +130,9 @@ def animate(scene, results):
     for lamp in (settings.sun_lamp, settings.moon_lamp):
         if lamp is not None:
             compat.make_linear(lamp, lamp.data)
-    first = results[min(results)].request
-    if first.sun_in_map:
-        discs = {frame: world_sun.disc_of(result.sun, result.request.width) for frame, result in results.items()}
+    discs = {frame: world_sun.disc_of(result) for frame, result in results.items()}
+    if not all(disc.is_dark for disc in discs.values()):
+        world_nodes.set_disc(settings.probe_world, discs[min(discs)])
         world_sun.insert_keys(settings.probe_world, discs)
     if not settings.auto_exposure:
         return ""

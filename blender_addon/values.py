@@ -20,6 +20,8 @@ OPTIONAL_AIR = (
 )
 # Years of the civil date.
 FIRST_YEAR, LAST_YEAR = 1000, 3000
+# Letters that no zone's name has more of.
+LONGEST_ZONE = 64
 # The longest path that Blender keeps [bytes].
 LONGEST_PATH = 1023
 # The preview's air is solved as coarsely as the library offers.
@@ -125,7 +127,7 @@ def date(settings):
 def zone_name(settings):
     """Return the name of the time zone; ValueError for what can be no name of one."""
     name = settings.zone_name.strip()
-    if not re.fullmatch(r"[\w+-]+(/[\w+-]+)*", name, re.ASCII):
+    if len(name) > LONGEST_ZONE or not re.fullmatch(r"[\w+-]+(/[\w+-]+)*", name, re.ASCII):
         raise ValueError(f"zone = {name or '(empty)'}: must be a name of the IANA database, such as Europe/Stockholm")
     return name
 

@@ -129,32 +129,24 @@ def play_sequence(world, frames):
     user.use_auto_refresh = True
 
 
-def set_disc_in_map(world, lamp, width):
-    """Tell both engines that the map of `width` pixels holds the disc of the jobs.Lamp `lamp`."""
-    # Cycles finds the disc reliably when its importance map is twice as wide as the probe.
-    compat.set_importance_map(world, 2 * width)
+def set_importance(world, result):
+    """Tell Cycles what discs the map of the jobs.SkyResult `result` holds."""
+    request, sun, moon = result.request, result.sun, result.moon
+    # By day the Moon in the map is too dim to be sampled by itself, in twilight the sky outshines it; at night it may be the brightest.
+    moon_counts = moon is not None and request.moon_in_map and moon.altitude_deg > sun.altitude_deg and sun.altitude_deg < 0.0
+    # Cycles finds a disc reliably when its importance map is twice as wide as the probe.
+    compat.set_importance_map(world, 2 * request.width if request.sun_in_map or moon_counts else None)
+
+
+def set_disc(world, disc):
+    """Give EEVEE the world_sun.Disc `disc` beside the map of `world`, or for None nothing: it must not make a sun of a bright sky."""
+    if disc is None:
+        world_sun.remove(world)
+        compat.set_sun_extraction(world, 0.0)
+        return
     nodes = world.node_tree.nodes
-    world_sun.shine(
-        world,
-        world_sun.disc_of(lamp, width),
-        nodes[MAPPING].outputs["Vector"],
-        nodes[ENVIRONMENT].outputs["Color"],
-        nodes[BACKGROUND].outputs["Background"],
-    )
-
-
-def set_moon_in_map(world, width, sun_altitude_deg):
-    """Tell Cycles that the map of `width` pixels holds a Moon that may be the brightest thing in it."""
-    compat.set_importance_map(world, 2 * width if sun_altitude_deg < 0.0 else None)
-    world_sun.remove(world)
-    compat.set_sun_extraction(world, 0.0)
-
-
-def set_discs_as_lamps(world):
-    """Tell both engines that the map holds no Sun: EEVEE must not make a second one of a bright sky."""
-    compat.set_importance_map(world, None)
-    world_sun.remove(world)
-    compat.set_sun_extraction(world, 0.0)
+    sockets = (nodes[MAPPING].outputs["Vector"], nodes[ENVIRONMENT].outputs["Color"], nodes[BACKGROUND].outputs["Background"])
+    world_sun.shine(world, disc, *sockets)
 
 
 def _outputs(tree):

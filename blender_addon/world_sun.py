@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Sun of the map for EEVEE, in an output of the world that only EEVEE takes.
+"""The Sun of the map for EEVEE, at night the Moon, in an output of the world that only EEVEE takes.
 
-EEVEE keeps the world in half floats, which end at 65504, a thirtieth of the Sun's disc, and makes a sun lamp of what is brighter than the
-world's threshold. So EEVEE is given the same energy in a disc that is as much wider as that limit asks for: it becomes a sun lamp of the true
+EEVEE keeps the world in half floats, which end at 65504, a thirtieth of the Sun's disc, and lose small discs of dim nights; and it makes a sun
+lamp of what is brighter than the world's threshold. So EEVEE is given the same energy in a disc that is as much wider as that limit asks for: it becomes a sun lamp of the true
 angle, strength and direction. The map's own disc is cut down to what the sky can be; of it, too, nothing is lost:
 
     disc = (irradiance - cut disc of the map) / solid angle
@@ -13,7 +13,7 @@ What the camera sees is the map itself. Cycles keeps the plain chain of world_no
 import math
 from dataclasses import dataclass
 
-from . import compat
+from . import compat, jobs
 
 # All our nodes for EEVEE begin with it.
 PREFIX = "Skyprobe EEVEE"
@@ -26,33 +26,51 @@ WIDEST = math.radians(20.0)
 # What EEVEE makes a sun of, and what a sky without its disc stays below.
 HIGHEST_THRESHOLD, BRIGHTEST_SKY = 300.0, 1000.0
 NO_LIMIT = 1e30
+# The threshold in parts of a disc's mean: less than a dim disc, more than the sky beside it. What stays below is lost in half floats at night.
+SUN_SHARE, MOON_SHARE = 0.1, 0.01
+# How much brighter than the mean of the sky a disc must be at least.
+CLEARANCE = 30.0
 
 
 @dataclass(frozen=True)
 class Disc:
-    """The values of the nodes, and of EEVEE's threshold, for one direction of the Sun."""
+    """The values of the nodes, and of EEVEE's threshold, for one place of Sun or Moon."""
 
     direction: tuple  # in the map: x east, y north, z up
     cosine: float  # of the disc's radius
-    radiance: tuple  # RGB
+    radiance: tuple  # RGB; zero for a dark disc
     sky_limit: float  # what the map is cut at
     threshold: float  # of the world
-    angle: float  # of the Sun [radians]
+    angle: float  # diameter of Sun or Moon [radians]
+
+    @property
+    def is_dark(self):
+        """Whether there is nothing to shine."""
+        return max(self.radiance) == 0.0
 
 
-def disc_of(lamp, width):
-    """Return the Disc that stands for the jobs.Lamp `lamp`, which a map of `width` pixels holds."""
+def disc_of(result):
+    """Return the Disc that stands for the Sun in the map of the jobs.SkyResult `result`, or for its Moon if no sky outshines it; else a dark one."""
+    request, sun, moon = result.request, result.sun, result.moon
+    if request.sun_in_map and max(sun.irradiance) > 0.0:
+        return _disc(sun, request.width, SUN_SHARE)
+    if request.moon_in_map and moon is not None and max(moon.irradiance) > 0.0:
+        disc = _disc(moon, request.width, MOON_SHARE)
+        # What is brighter than the threshold must be the Moon alone, and no glow at the horizon.
+        if disc.threshold > CLEARANCE * result.horizontal_lx / (math.pi * jobs.LUMINOUS_EFFICACY):
+            return disc
+    return Disc((0.0, 0.0, 1.0), 1.0, (0.0, 0.0, 0.0), NO_LIMIT, 0.0, math.radians(sun.diameter_deg))
+
+
+def _disc(lamp, width, share):
     radius = math.radians(lamp.diameter_deg) / 2.0
     altitude, azimuth = math.radians(lamp.altitude_deg), math.radians(lamp.azimuth_deg)
     direction = (math.cos(altitude) * math.sin(azimuth), math.cos(altitude) * math.cos(azimuth), math.sin(altitude))
     light = [max(value, 0.0) for value in lamp.irradiance]
-    if max(light) == 0.0:
-        return Disc(direction, math.cos(radius), (0.0, 0.0, 0.0), NO_LIMIT, 0.0, 2.0 * radius)
     # The disc of the map is as large as itself, or as the pixel that holds it.
     in_map = max(math.pi * radius**2, (2.0 * math.pi / width) ** 2 * math.cos(altitude))
-    # A tenth of its mean takes all of a dim disc and none of the sky.
-    tenth = 0.1 * max(light) / in_map
-    limit, threshold = min(tenth, BRIGHTEST_SKY), min(tenth, HIGHEST_THRESHOLD)
+    border = share * max(light) / in_map
+    limit, threshold = min(border, BRIGHTEST_SKY), min(border, HIGHEST_THRESHOLD)
     solid_angle = min(max(math.pi * radius**2, max(light) / MOST_RADIANCE), 2.0 * math.pi * (1.0 - math.cos(WIDEST)))
     radiance = tuple(max(value - min(value, limit * in_map), 0.0) / solid_angle for value in light)
     return Disc(direction, 1.0 - solid_angle / (2.0 * math.pi), radiance, limit, threshold, 2.0 * radius)
@@ -158,7 +176,7 @@ def _activate(nodes, output):
 
 
 def _values(disc):
-    """Yield (node, number of its input, value) of what changes with the Sun."""
+    """Yield (node, number of its input, value) of what changes with the disc."""
     yield DIRECTION, 1, disc.direction
     yield DISC, 1, disc.cosine
     yield SUN, 0, disc.radiance

@@ -38,6 +38,16 @@ def white_plane(altitudes_deg):
     return answers
 
 
+def moonlit_plane():
+    """Return the mean radiance of the white plane under the full Moon as a lamp and in the map."""
+    answer = {}
+    for name, moon_mode in (("lamp", "LAMP"), ("map", "MAP")):
+        scene = set_up(["plane"], "top_camera", year=2005, month=1, day=25, hour=0.5, moon_mode=moon_mode, width=1024)
+        bpy.ops.skyprobe.render()
+        answer[name] = mean(in_eevee(scene))
+    return answer
+
+
 def shadows(norths_deg):
     """Return [north, azimuth of the pole's shadow] under the Sun of the map at azimuth 200."""
     data = load_scene()
