@@ -66,7 +66,7 @@ inside() {
 
 build_tool() {
     inside cargo build --release --locked --target "$target" -Zbuild-std=std,panic_abort
-    inside sh -c 'cd /tmp && WINEDEBUG=-all wine /skyprobe/target/windows/$1/release/skyprobe.exe --version' version "$target"
+    inside sh -c 'cd /tmp && XDG_RUNTIME_DIR=/tmp WINEDEBUG=-all wine /skyprobe/target/windows/$1/release/skyprobe.exe --version' version "$target"
 }
 
 version() {
@@ -77,9 +77,12 @@ pack_tool() {
     local folder
     folder=$(mktemp -d)
     cp "$build/$target/release/skyprobe.exe" "$checkout"/LICENSE-* "$folder"
+    cp "$folder/skyprobe.exe" "$root/tmp/skyprobe.exe"
+    inside x86_64-w64-mingw32-strip /tmp/skyprobe.exe
+    mv "$root/tmp/skyprobe.exe" "$folder/skyprobe.exe"
     mkdir -p "$checkout/dist"
     rm -f "$checkout/dist/skyprobe-$(version)-windows_x64-tool.zip"
-    (cd "$folder" && python3 -m zipfile -c "$checkout/dist/skyprobe-$(version)-windows_x64-tool.zip" -- *)
+    (cd "$folder" && python3 -m zipfile -c "$checkout/dist/skyprobe-$(version)-windows_x64-tool.zip" *)
     rm -rf "$folder"
 }
 
@@ -96,7 +99,7 @@ build_wheel() {
 }
 
 run_tests() {
-    inside env CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine WINEDEBUG=-all PROPTEST_RNG_SEED=20051 \
+    inside env CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine WINEDEBUG=-all XDG_RUNTIME_DIR=/tmp PROPTEST_RNG_SEED=20051 \
         cargo test --release --locked --target "$target" -Zbuild-std=std,panic_abort --test cli --test windows
 }
 
