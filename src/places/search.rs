@@ -49,7 +49,7 @@ enum Exactness {
 /// or country; inhabitants; the place.
 type Rank = (bool, Exactness, u8, Reverse<u8>, u32);
 
-/// Longest text that is searched [bytes], and in how many parts and words at most: no name has more, and the work grows with all three.
+/// Longest text that is searched [bytes], and in how many parts and words at most: main names have up to 12 words, and the work grows with all three.
 const LONGEST_TEXT: usize = 200;
 const MOST_PARTS: usize = 7;
 const MOST_WORDS: usize = 16;
