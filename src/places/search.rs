@@ -5,27 +5,9 @@
 //! word within it), then by how exactly region or country is, then by their number of inhabitants.
 
 use super::fold::fold;
-use super::gazetteer::{GAZETTEER, Gazetteer, NamedPlace, Region};
+use super::gazetteer::{GAZETTEER, Gazetteer, NamedPlace, OTHER_COUNTRY_NAMES, Region};
 use memchr::memmem;
 use std::cmp::Reverse;
-
-/// Names of countries that people use beside the ones in the gazetteer, folded, and their codes.
-const OTHER_COUNTRY_NAMES: [(&str, &str); 14] = [
-    ("uk", "gb"),
-    ("great britain", "gb"),
-    ("britain", "gb"),
-    ("united states of america", "us"),
-    ("america", "us"),
-    ("uae", "ae"),
-    ("holland", "nl"),
-    ("czech republic", "cz"),
-    ("turkiye", "tr"),
-    ("burma", "mm"),
-    ("cape verde", "cv"),
-    ("swaziland", "sz"),
-    ("macedonia", "mk"),
-    ("east timor", "tl"),
-];
 
 /// Words that are written in two ways at the beginning of names.
 const ABBREVIATIONS: [(&str, &str); 5] = [("st", "saint"), ("ste", "sainte"), ("mt", "mount"), ("ft", "fort"), ("pt", "point")];
@@ -431,6 +413,13 @@ mod tests {
             ("mount everest", "Mount Everest", "NP"),
             ("machu picchu", "Machu Picchu", "PE"),
             ("south pole", "South Pole", "AQ"),
+            ("usa", "United States", "US"),
+            ("uk", "United Kingdom", "GB"),
+            ("holland", "The Netherlands", "NL"),
+            ("czech republic", "Czechia", "CZ"),
+            ("kilimanjaro", "Kilimanjaro", "TZ"),
+            ("borneo", "Borneo", "ID"),
+            ("antarctica", "South Pole", "AQ"),
             // A town that a region or country is called after is meant.
             ("new york", "New York City", "US"),
             ("luxembourg", "Luxembourg", "LU"),
@@ -439,6 +428,11 @@ mod tests {
         ] {
             assert_eq!(country_of(text), (name, country), "{text}: {:?}", labels(text, 5));
         }
+    }
+
+    #[test]
+    fn a_landmark_comes_before_a_region_of_its_name() {
+        assert_eq!(search("kilimanjaro", 1)[0].elevation_m, 5895.0);
     }
 
     #[test]
