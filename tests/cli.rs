@@ -42,6 +42,8 @@ fn wrong_input_is_one_line_and_exit_code_2_and_leaves_nothing() {
         (vec!["render", "--place", "Lund", "--lat", "1", "-o", "a.exr"], "cannot be used with"),
         (vec!["render", "--place", "Lund", "--sun-altitude", "3", "--sun-azimuth", "3", "-o", "a.exr"], "cannot be used with"),
         (vec!["places", "Qqqxx"], "place = \"Qqqxx\""),
+        (vec!["places", "Stockhlom"], "nearest spellings: Stockholm, Sweden"),
+        (vec!["info", "--lat", "55,71,13,19"], "one number, with a decimal point; --place takes both"),
         (vec!["places", "lund", "--limit", "0"], "--limit"),
         (vec!["render", "--lat", "1", "--sun-altitude", "3", "--sun-azimuth", "3", "-o", "a.exr"], "cannot be used with"),
         (with(&SUN, &["--turbidity", "-1", "-o", "a.exr"]), "turbidity = -1: must be a number from 1 to 64"),
@@ -437,6 +439,45 @@ fn a_place_is_named_and_told() {
     assert!(moved.starts_with("place               55.7100 deg S, 13.1930 deg E"), "{moved}");
     let dumped = stdout(&["render", "--config", "lund.json", "--dump-config"]);
     assert!(dumped.contains("\"latitude\": 55.706") && !dumped.contains("\"place\""), "{dumped}");
+}
+
+#[test]
+fn what_had_to_be_assumed_about_a_time_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let lund = ["--lat", "55,71", "--lon", "13,19", "--time"];
+    let said = |command: &[&str], time: &str, more: &[&str]| {
+        let run = tool(folder.path(), &[command, &lund[..], &[time], more].concat());
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        (text(&run.stdout), text(&run.stderr))
+    };
+    for (time, taken, words) in [
+        ("2005-03-27T02:30", "2005-03-27T03:30:00+02:00", "does not exist in Europe/Stockholm"),
+        ("2005-10-30T02:30", "2005-10-30T02:30:00+02:00", "exists twice in Europe/Stockholm"),
+        ("2005-06-21", "2005-06-21T12:00:00+02:00", "its noon"),
+        ("2005-06-21 13:00:60", "2005-06-21T13:00:59+02:00", "second 60"),
+    ] {
+        let (report, complaint) = said(&["info", "--no-light"], time, &[]);
+        assert!(report.contains(&format!("time                {taken}\n")) && report.contains(words), "{report}");
+        assert_eq!(complaint, "");
+        let json: serde_json::Value = serde_json::from_str(&said(&["info", "--no-light", "--json"], time, &[]).0).unwrap();
+        assert!(json["time_notice"].as_str().unwrap().contains(words), "{json}");
+        let (config, note) = said(&["render", "--dump-config"], time, &[]);
+        assert!(note.starts_with("note: time: ") && note.contains(words) && note.lines().count() == 1, "{note}");
+        assert!(config.contains(time));
+    }
+    let render = said(&["render", "--quality", "draft", "--width", "64", "-o", "a.hdr"], "2005-03-27T02:30", &[]);
+    assert!(render.1.contains("2005-03-27T03:30:00+02:00 is taken"), "{}", render.1);
+    assert_eq!(said(&["info", "--no-light", "--json"], "2005-06-21T13", &[]).1, "");
+}
+
+#[test]
+fn now_is_settled_when_a_configuration_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = tool(folder.path(), &["render", "--place", "Tokyo", "--time", "now", "--dump-config"]);
+    let config: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+    let time = config["time"].as_str().unwrap();
+    assert!(time.starts_with("20") && time.ends_with("+09:00[Asia/Tokyo]"), "{time}");
+    assert!(text(&run.stderr).contains(&format!("note: time: now is {time}")), "{}", text(&run.stderr));
 }
 
 #[test]

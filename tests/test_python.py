@@ -13,6 +13,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 import _thread
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -251,6 +252,28 @@ def test_times_are_aware_and_the_zone_is_that_of_the_place(air: sp.Atmosphere) -
     assert events.solar_noon.date() == datetime.date(2005, 6, 21)
     # In Lund the Sun does not sink to -18 degrees in June.
     assert events.astronomical_dusk is None
+
+
+def test_what_had_to_be_assumed_about_a_time_is_a_warning(air: sp.Atmosphere) -> None:
+    here = {"latitude": 55.71, "longitude": 13.19, "atmosphere": air}
+    times: list[tuple[object, str, str]] = [
+        ("2005-03-27T02:30", "2005-03-27T03:30:00+02:00", "does not exist in Europe/Stockholm"),
+        ("2005-10-30T02:30", "2005-10-30T02:30:00+02:00", "exists twice"),
+        (datetime.date(2005, 6, 21), "2005-06-21T12:00:00+02:00", "its noon"),
+    ]
+    for given, taken, words in times:
+        with pytest.warns(sp.TimeWarning, match=words) as told:
+            sky = sp.Sky(time=given, **here)  # type: ignore[arg-type]
+        assert sky.time is not None and sky.time.isoformat() == taken
+        assert sky.time_notice is not None and words in sky.time_notice
+        # It is told where the sky is made, so that it can be filtered there.
+        assert told[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for text in ("2005-03-27T03:30", "2005-10-30T02:30+01:00", "now"):
+            assert sp.Sky(time=text, **here).time_notice is None  # type: ignore[arg-type]
+        with pytest.raises(sp.TimeWarning):
+            sp.Sky(time="2005-06-21", **here)  # type: ignore[arg-type]
 
 
 def test_a_sun_that_is_put_has_no_place(air: sp.Atmosphere) -> None:

@@ -190,7 +190,7 @@ def seats(places: list[dict], names: dict, admin1: dict[str, str]) -> list[dict]
             add("c", names[country][1], capital, [], by_region[country, capital["region"]])
     for (country, code), towns_of_it in by_region.items():
         seat = max((town for town in towns_of_it if town["feature"] in {"PPLC", "PPLA"}), key=lambda town: town["population"], default=None)
-        if seat and admin1.get(f"{country}.{code}"):
+        if seat and admin1.get(f"{country}.{code}", names[country][1]) != names[country][1]:
             add("r", admin1[f"{country}.{code}"], seat, [], towns_of_it)
     return kept
 

@@ -48,21 +48,21 @@ impl ConfigOptions {
 /// Where and when, or a Sun that is put.
 #[derive(Args)]
 pub struct PlaceOptions {
-    /// A town or an observatory by its name, with region or country where there are several ("Lund, Sweden", "portland, maine"), or coordinates in any
-    /// spelling ("55.71, 13.19", "55 42 36 N 13 11 24 E", a link to a map).
+    /// A town, a country, an island, a landmark or an observatory by its name, with region or country where there are several ("Lund, Sweden",
+    /// "portland, maine", "Santorini"), or coordinates in any spelling ("55.71, 13.19", "55 42 36 N 13 11 24 E", a link to a map).
     ///
-    /// Of several places the one with the most inhabitants is taken, and told; `skyprobe places NAME` lists them. It gives the elevation, too: that of
-    /// the town, or roughly that of the land at coordinates.
+    /// Of several places the one with the most inhabitants is taken, and told; `skyprobe places NAME` lists them. A country stands where its capital is. It
+    /// gives the elevation, too: that of the town, or roughly that of the land at coordinates.
     #[arg(long, value_name = "NAME", allow_hyphen_values = true, conflicts_with_all = ["latitude", "longitude"], help_heading = PLACE)]
     place: Option<String>,
     /// Latitude, north positive, -90 to 90 [degrees].
-    #[arg(long, visible_alias = "lat", value_name = "DEG", help_heading = PLACE)]
+    #[arg(long, visible_alias = "lat", value_name = "DEG", value_parser = decimal, help_heading = PLACE)]
     latitude: Option<f64>,
     /// Longitude, east positive, -180 to 180 [degrees].
-    #[arg(long, visible_alias = "lon", value_name = "DEG", help_heading = PLACE)]
+    #[arg(long, visible_alias = "lon", value_name = "DEG", value_parser = decimal, help_heading = PLACE)]
     longitude: Option<f64>,
     /// Height of the observer above the sea, -500 to 60000 [m]. Default: that of --place, else 0.
-    #[arg(long, value_name = "M", help_heading = PLACE)]
+    #[arg(long, value_name = "M", value_parser = decimal, help_heading = PLACE)]
     elevation: Option<f64>,
     /// Date and time (ISO 8601): 2005-06-21T13:00:00+02:00, 2005-06-21T11:00Z, 2005-06-21T13:00, "2005-06-21 13:00"; a date alone is its noon; now.
     ///
@@ -109,8 +109,20 @@ impl PlaceOptions {
         if let Some(model) = &self.sun_model {
             config.sun_model = model.parse()?;
         }
-        config.settle_now()
+        if config.settle_now()? {
+            complain(&format!("note: time: now is {}", config.time.as_deref().unwrap_or_default()));
+        }
+        Ok(())
     }
+}
+
+/// A number, with a decimal point or a decimal comma.
+fn decimal(text: &str) -> std::result::Result<f64, String> {
+    let commas = text.matches(',').count();
+    let has_one_comma = commas == 1 && !text.contains('.') && !text.starts_with(',') && !text.ends_with(',');
+    let pointed = if has_one_comma { text.replace(',', ".") } else { text.to_string() };
+    let hint = if commas > 0 { ": one number, with a decimal point; --place takes both coordinates" } else { "" };
+    pointed.trim().parse().map_err(|_| format!("it must be a number{hint}"))
 }
 
 /// Says what had to be assumed about the time.

@@ -16,7 +16,8 @@ Examples:
     skyprobe places 33 52 S 151 12 E
     skyprobe places https://www.openstreetmap.org/#map=12/55.71/13.19
 
-Names are those of GeoNames (geonames.org, CC BY 4.0): towns and villages from 500 inhabitants on; and observatories.
+Names are those of GeoNames (geonames.org, CC BY 4.0): towns and villages from 500 inhabitants on, countries and regions (where their capitals are); and islands,
+landmarks, observatories. A name that is not found has the nearest spellings in the message.
 ";
 
 /// Options of `skyprobe places`.
@@ -100,6 +101,7 @@ impl Row {
             "name": self.place.map(|place| place.name),
             "region": self.place.map(|place| place.region),
             "country": self.place.map(|place| place.country),
+            "kind": self.place.map(|place| place.kind.name()),
             "country_code": self.place.map(|place| place.country_code),
             "latitude": self.coordinates.latitude_deg,
             "longitude": self.coordinates.longitude_deg,

@@ -208,15 +208,16 @@ impl Config {
     }
 
     /// Writes the present instant where the time is `now`, in the zone that is named, else that of the place: so that it stays the same from here on.
+    /// Returns whether it did.
     ///
     /// # Errors
     /// As [`Time::parse`].
-    pub fn settle_now(&mut self) -> Result<()> {
-        let Some(text) = self.time.as_deref().filter(|text| text.trim().eq_ignore_ascii_case("now")) else { return Ok(()) };
+    pub fn settle_now(&mut self) -> Result<bool> {
+        let Some(text) = self.time.as_deref().filter(|text| text.trim().eq_ignore_ascii_case("now")) else { return Ok(false) };
         let now = Time::parse(text, self.zone_choice())?;
         let zone = now.zone_name().map_or_else(String::new, |zone| format!("[{zone}]"));
         self.time = Some(format!("{now}{zone}"));
-        Ok(())
+        Ok(true)
     }
 
     /// What had to be assumed about the time, as [`Time::notice`]; `None` too where the time cannot be read.

@@ -12,6 +12,25 @@ use std::sync::LazyLock;
 
 const MAGIC: &[u8; 8] = b"SKYPLAC1";
 
+/// Names of countries that people use beside the ones in the gazetteer, folded, and their codes.
+pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 15] = [
+    ("usa", "us"),
+    ("uk", "gb"),
+    ("great britain", "gb"),
+    ("britain", "gb"),
+    ("united states of america", "us"),
+    ("america", "us"),
+    ("uae", "ae"),
+    ("holland", "nl"),
+    ("czech republic", "cz"),
+    ("turkiye", "tr"),
+    ("burma", "mm"),
+    ("cape verde", "cv"),
+    ("swaziland", "sz"),
+    ("macedonia", "mk"),
+    ("east timor", "tl"),
+];
+
 /// What kind of place it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -148,15 +167,19 @@ pub(super) struct Row {
     pub kind: PlaceKind,
 }
 
-/// What an island, a country or a landmark weighs at least among places of the same name: as a town of 200 000 inhabitants, 22 ln (200 000 / 300).
+/// What an island or a country weighs at least among places of the same name: as a town of 200 000 inhabitants, 22 ln (200 000 / 300).
 const LEAST_WEIGHT: u8 = 143;
+
+/// What a landmark weighs: as a town of a million inhabitants, 22 ln (1 000 000 / 300).
+const LANDMARK_WEIGHT: u8 = 178;
 
 impl Row {
     /// How important it is, in codes of populations.
     pub fn weight(&self) -> u8 {
         match self.kind {
             PlaceKind::Town | PlaceKind::Observatory | PlaceKind::Region => self.population,
-            PlaceKind::Country | PlaceKind::Island | PlaceKind::Landmark => self.population.max(LEAST_WEIGHT),
+            PlaceKind::Country | PlaceKind::Island => self.population.max(LEAST_WEIGHT),
+            PlaceKind::Landmark => LANDMARK_WEIGHT,
         }
     }
 }
@@ -256,15 +279,21 @@ impl Gazetteer {
             for key in std::iter::once(name).chain(others.split('\t').filter(|other| !other.is_empty())) {
                 gazetteer.keys.add(key, index);
             }
+            let (kind, region) = (PlaceKind::of(*kinds.get(index)?)?, region_of.next()?);
+            if kind == PlaceKind::Country {
+                let code = &gazetteer.regions.get(usize::from(region))?.codes[1];
+                let others = OTHER_COUNTRY_NAMES.iter().filter(|(_, other)| other == code);
+                others.for_each(|(name, _)| gazetteer.keys.add(name, index));
+            }
             gazetteer.rows.push(Row {
                 name_end: gazetteer.names.len() as u32,
                 latitude: *latitudes.get(index)?,
                 longitude: *longitudes.get(index)?,
                 elevation_m: i16::try_from(*elevations.get(index)?).ok()?,
                 zone: u16::from_le_bytes([*zone_of.get(2 * index)?, *zone_of.get(2 * index + 1)?]),
-                region: region_of.next()?,
+                region,
                 population: *populations.get(index)?,
-                kind: PlaceKind::of(*kinds.get(index)?)?,
+                kind,
             });
         }
         let whole = gazetteer.rows.len() == places && bytes.0.is_empty();

@@ -81,8 +81,8 @@ mod tests {
     #[test]
     fn what_is_neither_is_refused_by_what_it_looks_like() {
         assert!(locate("Qqqxx").unwrap_err().to_string().starts_with("place = \"Qqqxx\": must be the name of a town"));
-        let message = locate("Stokholm").unwrap_err().to_string();
-        assert!(message.contains("nearest spellings: Stockholm, Stockholm, Sweden"), "{message}");
+        let message = locate("Stockhlom").unwrap_err().to_string();
+        assert!(message.contains("nearest spellings: Stockholm, Sweden"), "{message}");
         assert!(locate(&"x".repeat(80_000)).unwrap_err().to_string().contains("at most 200 bytes"));
         assert!(locate("").unwrap_err().to_string().starts_with("place = \"\""));
         assert!(locate("95, 13").unwrap_err().to_string().starts_with("latitude = 95"));

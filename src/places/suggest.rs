@@ -118,13 +118,13 @@ mod tests {
     #[test]
     fn misspelled_names_suggest_what_was_meant() {
         for (text, name) in [
-            ("Stokholm", "Stockholm"),
+            ("Stockhlom", "Stockholm"),
             ("Reykjavic", "Reykjavík"),
             ("Lodnon", "London"),
             ("new yrok", "New York City"),
-            ("Stokholm, Sweden", "Stockholm"),
-            ("stokholm sweden", "Stockholm"),
-            ("Stokholm, Sweeden", "Stockholm"),
+            ("Stockhlom, Sweden", "Stockholm"),
+            ("stockhlom sweden", "Stockholm"),
+            ("Stockhlom, Sweeden", "Stockholm"),
             ("Santorni", "Santorini"),
             ("Stonehedge", "Stonehenge"),
             ("Icelnad", "Iceland"),
@@ -138,10 +138,10 @@ mod tests {
 
     #[test]
     fn nothing_near_suggests_nothing() {
-        for text in ["", "x", "qqqqxxxxqq", "99", &"a".repeat(41), &"stokholm ".repeat(100)] {
+        for text in ["", "x", "qqqqxxxxqq", "99", &"a".repeat(41), &"stockhlom ".repeat(100)] {
             assert!(suggest(text, 5).is_empty(), "{text}");
         }
-        assert!(suggest("Stokholm", 0).is_empty());
+        assert!(suggest("Stockhlom", 0).is_empty());
     }
 
     #[test]

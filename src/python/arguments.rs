@@ -60,7 +60,7 @@ pub fn time_text(time: &Bound<'_, PyAny>) -> PyResult<String> {
         if time.is_instance(&datetime.getattr("date")?)? {
             return time.call_method0("isoformat")?.extract();
         }
-        return Err(wrong("a text, a datetime.datetime or a datetime.date"));
+        return Err(wrong("a text or a datetime.datetime or datetime.date"));
     }
     if time.call_method0("utcoffset")?.is_none() {
         return Err(wrong("a datetime with a time zone (tzinfo); a local time of the place is given as text"));

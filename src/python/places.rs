@@ -341,7 +341,7 @@ pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
     py.detach(|| places::search(text, limit)).into_iter().map(|inner| Place { inner }).collect()
 }
 
-/// Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stokholm" suggests Stockholm.
+/// Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stockhlom" suggests Stockholm.
 ///
 /// Up to two letters may be missing, wrong, too many or swapped, one in words of four letters or fewer. The nearest come first, then the largest; some 30 ms.
 ///
