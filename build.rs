@@ -13,11 +13,10 @@ fn main() {
     let crate_folder = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo"));
     println!("cargo:rerun-if-changed=build.rs");
     let files = files_of_a_solve(&crate_folder);
-    for file in files.keys() {
-        println!("cargo:rerun-if-changed={file}");
-    }
-    for module in ["src", "src/light", "src/atmosphere", "src/spectrum"] {
-        println!("cargo:rerun-if-changed={module}");
+    // With the folders, for files that are new.
+    let folders: BTreeSet<&str> = files.keys().filter_map(|file| Some(file.rsplit_once('/')?.0)).collect();
+    for path in folders.into_iter().chain(files.keys().map(String::as_str)) {
+        println!("cargo:rerun-if-changed={path}");
     }
     println!("cargo:rustc-env=SKYPROBE_SOLVER_FINGERPRINT={:016x}", fingerprint(&files));
 }

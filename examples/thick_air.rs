@@ -1,78 +1,92 @@
-//! How well the light of thick air is found: diffuse irradiance of the ground against the path tracer, and the error that the solver itself expects.
+//! How well the light of thick air is found: the irradiance of the ground, and its error as the solver expects it from the energy that it loses.
+//!
+//! ```text
+//! cargo run --release --example thick_air -- draft fog,clear,desert 2,5,8,12
+//! cargo run --release --example thick_air -- --json draft slab,white_slab 1,2,5 | python docs/validation/thick_air.py
+//! ```
+//!
+//! Quality, presets and optical depths of the aerosol at 550 nm; `slab` is a homogeneous layer of 10 km of molecules that do not absorb, over a black ground, `white_slab` over a white one.
+//! With `--json` one line an air, with its profile at 550 nm, for `docs/validation/thick_air.py`, which computes the same by adding and doubling. `--polarised` solves with polarisation.
+
 use skyprobe::atmosphere::{AirParameters, Component, OpticalProfile, Phase};
 use skyprobe::light::{LightField, gauss};
 use skyprobe::progress::Progress;
 use skyprobe::quality::Quality;
+use std::time::Instant;
+
+fn slab(optical_depth: f64, ground_albedo: f64) -> OpticalProfile {
+    OpticalProfile {
+        altitudes_km: vec![0.0, 10.0],
+        wavelengths_nm: vec![550.0],
+        components: vec![Component {
+            name: "slab".into(),
+            scattering_per_km: vec![optical_depth / 10.0; 2],
+            absorption_per_km: vec![0.0; 2],
+            phase: Some(Phase::Rayleigh { depolarisation: vec![0.0] }),
+        }],
+        ground_albedo: vec![ground_albedo],
+        solar_irradiance: vec![1.0],
+        planet_radius_km: 6371.0,
+        sun_angular_radius_deg: 0.2664,
+    }
+}
 
 fn main() -> skyprobe::Result<()> {
-    let mut arguments = std::env::args().skip(1);
-    let quality: Quality = arguments.next().unwrap_or("draft".into()).parse()?;
-    let kinds = arguments.next().unwrap_or("fog,clear,desert,urban".into());
-    let depths = arguments.next().unwrap_or("1,2,3,4,6,8,10,12,15,18,25,50".into());
-    let extra = arguments.next().unwrap_or_default();
-    let dump = std::env::var_os("DUMP").is_some();
+    let (flags, words): (Vec<String>, Vec<String>) = std::env::args().skip(1).partition(|word| word.starts_with("--"));
+    let has = |name: &str| flags.iter().any(|flag| flag == name);
+    let word = |k: usize, default: &str| words.get(k).map_or(default, String::as_str).to_string();
+    let quality: Quality = word(0, "draft").parse()?;
     let wavelengths = skyprobe::spectrum::wavelengths(quality.numbers().wavelengths);
-    for kind in kinds.split(',') {
-        for depth in depths.split(',') {
-            let profile = if kind == "slab" {
-                let mut parts = extra.split('/');
-                let g: f64 = parts.next().unwrap_or("").parse().unwrap_or(0.0);
-                let albedo: f64 = parts.next().unwrap_or("").parse().unwrap_or(0.0);
-                let d: f64 = depth.parse().unwrap();
-                let phase = if g == 0.0 {
-                    Phase::Rayleigh { depolarisation: vec![0.0] }
-                } else {
-                    Phase::HenyeyGreenstein { asymmetry: g }
-                };
-                OpticalProfile {
-                    altitudes_km: vec![0.0, 10.0],
-                    wavelengths_nm: vec![550.0],
-                    components: vec![Component {
-                        name: "slab".into(),
-                        scattering_per_km: vec![d / 10.0; 2],
-                        absorption_per_km: vec![0.0; 2],
-                        phase: Some(phase),
-                    }],
-                    ground_albedo: vec![albedo],
-                    solar_irradiance: vec![1.0],
-                    planet_radius_km: 6371.0,
-                    sun_angular_radius_deg: 0.2664,
-                }
-            } else {
-                let air: AirParameters =
-                    serde_json::from_str(&format!(r#"{{"preset": "{kind}", "aod550": {depth}{extra}}}"#)).unwrap();
-                air.optical_profile(&wavelengths)?
+    let cosines: Vec<f64> = gauss::legendre(16).iter().map(|node| node.0).collect();
+    for kind in word(1, "fog,clear,desert,urban").split(',') {
+        for depth in word(2, "1,2,3,5,8,12,15,18,25,50").split(',') {
+            let aod550: f64 = depth.parse().expect("an optical depth");
+            let profile = match kind {
+                "slab" => slab(aod550, 0.0),
+                "white_slab" => slab(aod550, 1.0),
+                _ => AirParameters { preset: kind.parse()?, aod550: Some(aod550), ..Default::default() }
+                    .optical_profile(&wavelengths)?,
             };
-            let k = profile.wavelengths_nm.iter().position(|&w| w > 549.0).unwrap();
-            let count = profile.wavelengths_nm.len();
-            let start = std::time::Instant::now();
-            let field = match LightField::solve(&profile, &quality.numbers(), false, &Progress::silent()) {
+            let start = Instant::now();
+            let solved = LightField::solve(&profile, &quality.numbers(), has("--polarised"), &Progress::silent());
+            let seconds = start.elapsed().as_secs_f64();
+            let field = match solved {
                 Ok(field) => field,
+                Err(error) if has("--json") => {
+                    println!("{}", serde_json::json!({"kind": kind, "aod550": aod550, "error": error.to_string()}));
+                    continue;
+                }
                 Err(error) => {
-                    println!("{kind:8} {depth:>5}  {:5.1} s  {error}", start.elapsed().as_secs_f64());
+                    println!("{kind:10} {aod550:4}  {seconds:5.1} s  {error}");
                     continue;
                 }
             };
-            let seconds = start.elapsed().as_secs_f64();
-            let cosines: Vec<f64> = gauss::legendre(16).iter().map(|n| n.0).collect();
+            let (k, count) = (profile.wavelengths_nm.iter().position(|&w| w > 549.0).unwrap_or(0), profile.wavelengths_nm.len());
             let solved: Vec<f64> = cosines.iter().map(|mu| field.ground_irradiance(mu.acos())[k]).collect();
-            let all = field.errors_on_the_ground();
-            let worst = all.iter().fold(0.0_f64, |a, b| if b.abs() > a.abs() || b.is_nan() { *b } else { a });
-            if dump {
-                let column = |values: &[f64]| -> Vec<f64> { values.iter().skip(k).step_by(count).copied().collect() };
-                let components: Vec<_> = profile.components.iter().map(|c| serde_json::json!({"s": column(&c.scattering_per_km), "a": column(&c.absorption_per_km), "m": c.phase.as_ref().map(|p| p.legendre_moments(40, k))})).collect();
+            let worst = field.errors_on_the_ground().into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+            if !has("--json") {
+                let (high, expected) = (solved[11], 100.0 * worst);
                 println!(
-                    "{}",
-                    serde_json::json!({"kind": kind, "depth": depth, "z": profile.altitudes_km, "components": components, "albedo": profile.ground_albedo[k], "cosines": cosines, "solved": solved, "expected": all[k], "worst": worst, "seconds": seconds})
+                    "{kind:10} {aod550:4}  {seconds:5.1} s  {high:.4} at Sun cosine 0.81, error {expected:+.1} % in the worst wavelength"
                 );
-            } else {
-                println!(
-                    "{kind:8} {depth:>5}  {seconds:5.1} s   overhead {:.4e}, expected {:+.1} %, worst {:+.1} %",
-                    solved[15],
-                    100.0 * all[k],
-                    100.0 * worst
-                );
+                continue;
             }
+            let column = |values: &[f64]| values.iter().skip(k).step_by(count).copied().collect::<Vec<f64>>();
+            let components = profile.components.iter().map(|component| {
+                serde_json::json!({
+                    "scattering_per_km": column(&component.scattering_per_km),
+                    "absorption_per_km": column(&component.absorption_per_km),
+                    "moments": component.phase.as_ref().map(|phase| phase.legendre_moments(40, k)),
+                })
+            });
+            let components: Vec<_> = components.collect();
+            println!(
+                "{}",
+                serde_json::json!({
+                    "kind": kind, "aod550": aod550, "altitudes_km": profile.altitudes_km, "components": components,
+                    "ground_albedo": profile.ground_albedo[k], "solved": solved, "worst": worst,
+                })
+            );
         }
     }
     Ok(())

@@ -22,6 +22,8 @@ pub struct Grid {
     pub zeniths: ZenithAxis,
     /// Sine and cosine of the solar zenith angles.
     pub sun: Vec<(f64, f64)>,
+    /// How many levels there are beyond those of the quality, because the air is thick.
+    pub more_levels: usize,
     radius: f64,
 }
 
@@ -189,7 +191,7 @@ impl Grid {
             let zeniths = ZenithAxis::new(solar_zenith_angles);
             let sun = zeniths.angles().iter().map(|theta| theta.sin_cos()).collect();
             let [shells, fine_shells] = [1, FINER].map(|finer| measure.shells(finer * numbers.shells, finer * more));
-            Self { altitudes: measure.spread(altitudes, more), shells, fine_shells, zeniths, sun, radius }
+            Self { altitudes: measure.spread(altitudes, more), shells, fine_shells, zeniths, sun, more_levels: more, radius }
         };
         [
             make(numbers.altitudes, numbers.solar_zenith_angles),

@@ -37,7 +37,7 @@ const MAX_PLAIN: usize = 80;
 /// A relative change from which nothing good comes any more.
 const HOPELESS: f32 = 1e3;
 
-/// Iterations in which the change must fall by a tenth at least.
+/// Iterations over which it is judged how fast the change falls.
 const PATIENCE: usize = 15;
 
 /// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
@@ -113,7 +113,9 @@ pub fn solve(
         next.add(&once);
         Ok(next)
     };
-    let low = iterate(&once, numbers.convergence, scatter_once_more)?;
+    // In thick air small changes add up to more.
+    let convergence = numbers.convergence / (1 + iteration_grid.more_levels) as f32;
+    let low = iterate(&once, convergence, scatter_once_more)?;
 
     let fine = Target::new(grid, &air, numbers.zenith_nodes, limits);
     // Light scattered once is less smooth in azimuth than the rest.
@@ -130,13 +132,13 @@ pub fn solve(
     Ok(Block { air, sunlight, direct, field })
 }
 
-/// The field that `scatter_once_more` takes to itself, but for a relative `change`; it gets the field and the number of the iteration.
+/// The field that `scatter_once_more` takes to itself, but for a relative change of `convergence`; it gets the field and the number of the iteration.
 fn iterate(
     once: &Field<LANES>,
     convergence: f32,
     scatter_once_more: impl Fn(&Field<LANES>, usize) -> Result<Field<LANES>>,
 ) -> Result<Field<LANES>> {
-    let (mut iterations, mut smallest) = (0, f32::INFINITY);
+    let (mut iterations, mut nearest) = (0, f32::INFINITY);
     for (most, accelerated) in [(MAX_ACCELERATED, true), (MAX_PLAIN, false)] {
         let mut low = once.clone();
         let mut anderson = Anderson::new();
@@ -145,24 +147,34 @@ fn iterate(
             let next = scatter_once_more(&low, iterations)?;
             iterations += 1;
             let change = anderson.step(&mut low, next, accelerated && iteration >= 1);
-            smallest = smallest.min(change);
-            // What is left to come of a plain iteration is a geometric series.
-            let rate = changes.last().map_or(0.0, |last| (change / last).clamp(0.0, 0.99));
-            let left = if accelerated { change } else { change * (1.0_f32).max(rate / (1.0 - rate)) };
+            changes.push(change);
+            // What is left to come of plain iterations is a geometric series.
+            let rate = if accelerated { 0.0 } else { rate(&changes) };
+            let left = change * (rate / (1.0 - rate)).max(1.0);
+            nearest = nearest.min(left);
             if left < convergence {
                 return Ok(low);
             }
-            let stands_still = !accelerated && iteration >= PATIENCE && change > 0.9 * changes[iteration - PATIENCE];
-            if stands_still || change.is_nan() || change > HOPELESS {
+            let in_vain = rate > 0.0 && left * rate.powi((most - iteration) as i32) > 2.0 * convergence;
+            if change.is_nan() || change > HOPELESS || (iteration >= PATIENCE && in_vain) {
                 break;
             }
-            changes.push(change);
         }
     }
     Err(Error::unsolved(format!(
-        "after {iterations} iterations successive orders of scattering still change it by {:.1} %",
-        100.0 * smallest
+        "after {iterations} iterations the orders of scattering that are still missing would change it by {:.2} %",
+        100.0 * nearest
     )))
+}
+
+/// How much smaller each of the latest changes is than the one before, below 1.
+fn rate(changes: &[f32]) -> f32 {
+    let last = changes.len() - 1;
+    let before = last.saturating_sub(PATIENCE).max(last / 2);
+    if last == before {
+        return 0.0;
+    }
+    (changes[last] / changes[before]).powf(1.0 / (last - before) as f32).clamp(0.0, 0.995)
 }
 
 /// The part of the progress that one application of the operator makes.
