@@ -40,7 +40,7 @@ fn signal(child: &Child, name: &str) {
 fn picture(path: &Path, width: usize) {
     let mut file = std::io::BufWriter::new(fs::File::create(path).unwrap());
     let header = "#?RADIANCE\nskyprobe.projection=latlong\nskyprobe.scale=blender\nFORMAT=32-bit_rle_rgbe\n\n";
-    write!(file, "{header}-Y {} +X {width}\n", width / 2).unwrap();
+    writeln!(file, "{header}-Y {} +X {width}", width / 2).unwrap();
     let mut seed = 1u32;
     for y in 0..width / 2 {
         for x in 0..width {
