@@ -333,3 +333,12 @@ def test_the_moon_as_a_lamp_is_the_moon_of_the_probe(air: sp.Atmosphere) -> None
     never = sky_at(air, LUND, FULL_MOON, night=sp.Night(when="never"))
     assert never.moon_irradiance_rgb() == (0.0, 0.0, 0.0)
     assert sky_at(air, LUND, "2005-01-25T12:00:00+01:00").moon_irradiance_rgb() == (0.0, 0.0, 0.0)
+
+
+def test_the_discs_of_sun_and_moon_are_left_out_each_by_itself(air: sp.Atmosphere) -> None:
+    sky = sky_at(air, LUND, FULL_MOON)
+    with_moon, without = sky.render(width=128), sky.render(width=128, moon_disc=False)
+    assert with_moon.moon_disc and not without.moon_disc
+    assert numpy.array_equal(without.pixels, sky.render(width=128, layers={"moon": 0.0}).pixels)
+    assert numpy.array_equal(with_moon.pixels, sky.render(width=128, sun_disc=False).pixels)
+    assert with_moon.pixels.mean() > 2.0 * without.pixels.mean()
