@@ -66,6 +66,7 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "SunlightOnlyWarning",
     "ToneReport",
     "__version__",
     "auto_exposure",
