@@ -217,7 +217,8 @@ fn the_illuminance_of_the_sky_is_the_integral_of_its_spectra() {
     use crate::sky::irradiance::Nodes;
     for parameters in [AirParameters::default(), AirParameters { aod550: Some(0.6), ..AirParameters::default() }] {
         let atmosphere = Arc::new(Atmosphere::new(&parameters, Quality::Standard, true).unwrap());
-        for (altitude, tolerance) in [(88.0, 1e-4), (40.0, 1e-4), (8.0, 1e-4), (0.0, 1e-4), (-4.0, 2e-4), (-10.0, 1e-3)] {
+        // Gathering in few directions is 1.6e-3 off under the highest of these Suns, whose aureole is at the zenith.
+        for (altitude, tolerance) in [(88.0, 1e-3), (40.0, 1e-3), (8.0, 1e-3), (0.0, 1e-3), (-4.0, 1e-3), (-10.0, 2e-3)] {
             let sky = sky(&atmosphere, altitude, 0.0);
             let field = sky.field(&Progress::silent()).unwrap();
             let weights = sky.sky_weights().unwrap();
