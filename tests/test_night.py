@@ -179,7 +179,7 @@ def test_the_full_moon_lights_the_ground(air: sp.Atmosphere) -> None:
     assert probe.irradiance()[1] == pytest.approx(light.global_horizontal_lx, rel=0.01)
     assert repr(light).startswith("<Illuminance on the horizontal: Sun 0.0000 lx, Moon 0.1")
     # Spectra and irradiance are those of sunlight: at midnight there is next to none, and that is told.
-    with pytest.warns(sp.SunlightOnlyWarning, match="irradiance: of sunlight alone, with the Sun at -15"):
+    with pytest.warns(sp.SunlightOnlyWarning, match="irradiance: of sunlight alone, with the Sun at -53.24 degrees"):
         assert sky.irradiance([550.0]).diffuse_horizontal[0] < 1e-9
 
 

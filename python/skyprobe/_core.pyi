@@ -67,6 +67,7 @@ __all__ = [
     "Sky",
     "SolarEclipse",
     "SunEvents",
+    "SunlightOnlyWarning",
     "TimeFields",
     "TimeWarning",
     "ToneReport",

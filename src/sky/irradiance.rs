@@ -35,21 +35,36 @@ pub struct Illuminance {
     pub global_horizontal_lx: f64,
 }
 
-/// View zenith angles of the quadrature: cosine = t^2, so that they crowd at the horizon.
-const CIRCLES: usize = 32;
-/// Azimuths on half the circle.
-const AZIMUTHS: usize = 60;
+/// How many circles of equal zenith angle, cosine = t^2 so that they crowd at the horizon, and azimuths on half the circle an integral has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nodes {
+    pub circles: usize,
+    pub azimuths: usize,
+}
+
+impl Nodes {
+    /// Where each direction is gathered, or shows many layers.
+    pub const FEW: Self = Self { circles: 32, azimuths: 60 };
+    /// Where a direction costs nanoseconds: they resolve the aureole.
+    pub const MANY: Self = Self { circles: 64, azimuths: 360 };
+
+    /// Azimuths from the middle to the other side [radians].
+    fn half_circle(self) -> impl Iterator<Item = f64> {
+        (0..self.azimuths).map(move |a| (a as f64 + 0.5) * PI / self.azimuths as f64)
+    }
+}
 
 /// Irradiance of the horizontal plane by the sky, per unit solar irradiance, by wavelength; `gain`: factor on the sky's light by the altitude [radians].
 pub(super) fn diffuse_horizontal(
     field: &LightField,
     observer: &Observer,
+    nodes: Nodes,
     gain: impl Fn(f64) -> f64 + Sync,
     progress: &Progress,
 ) -> Result<Vec<f64>> {
-    let azimuths: Vec<f64> = (0..AZIMUTHS).map(|a| (a as f64 + 0.5) * PI / AZIMUTHS as f64).collect();
-    let parts = progress.parts("gather", CIRCLES);
-    let circles = gauss::legendre(CIRCLES)
+    let azimuths: Vec<f64> = nodes.half_circle().collect();
+    let parts = progress.parts("gather", nodes.circles);
+    let circles = gauss::legendre(nodes.circles)
         .into_par_iter()
         .map(|(t, weight)| {
             let mu = t * t;
@@ -58,7 +73,7 @@ pub(super) fn diffuse_horizontal(
             let gain = gain(mu.asin());
             for (a, azimuth) in azimuths.iter().enumerate() {
                 let cosine = mu * observer.sun_zenith.cos() + (1.0 - mu * mu).sqrt() * observer.sun_zenith.sin() * azimuth.cos();
-                let share = gain * 2.0 * t * weight * mu * TAU / AZIMUTHS as f64;
+                let share = gain * 2.0 * t * weight * mu * TAU / azimuths.len() as f64;
                 for (w, total) in sum.iter_mut().enumerate() {
                     *total += share * field.radiance(&gathered, a, w, cosine);
                 }
@@ -72,9 +87,16 @@ pub(super) fn diffuse_horizontal(
     Ok(sums)
 }
 
-/// XYZ irradiance of the horizontal plane by `light` without its discs [W m-2]; `gain`: factor on what is smooth in it by the altitude [radians].
-pub(super) fn horizontal_irradiance(light: &dyn SkyLight, gain: impl Fn(f64) -> f64 + Sync) -> [f64; 3] {
-    let azimuths: Vec<f64> = (0..2 * AZIMUTHS).map(|a| (a as f64 + 0.5) * PI / AZIMUTHS as f64).collect();
+/// XYZ irradiance of the horizontal plane by `light` without its discs [W m-2], by azimuths on both sides of `azimuth` [radians]; `gain`: factor on what is smooth in it by the altitude
+/// [radians].
+pub(super) fn horizontal_irradiance(
+    light: &dyn SkyLight,
+    nodes: Nodes,
+    azimuth: f64,
+    gain: impl Fn(f64) -> f64 + Sync,
+) -> [f64; 3] {
+    let sides = [1.0, -1.0].into_iter();
+    let azimuths: Vec<f64> = sides.flat_map(|side| nodes.half_circle().map(move |from| azimuth + side * from)).collect();
     let circle = |(t, weight): (f64, f64)| {
         let mu = t * t;
         let mut row = vec![[0.0_f32; 3]; azimuths.len()];
@@ -83,6 +105,6 @@ pub(super) fn horizontal_irradiance(light: &dyn SkyLight, gain: impl Fn(f64) -> 
         row.iter().fold([0.0; 3], |sum, xyz| std::array::from_fn(|k| sum[k] + share * f64::from(xyz[k])))
     };
     let add = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
-    let smooth = gauss::legendre(CIRCLES).into_par_iter().map(circle).reduce(|| [0.0; 3], add);
+    let smooth = gauss::legendre(nodes.circles).into_par_iter().map(circle).reduce(|| [0.0; 3], add);
     light.points().iter().fold(smooth, |sum, point| add(sum, point.irradiance.map(|value| value * point.direction.z.max(0.0))))
 }

@@ -2,7 +2,7 @@
 
 use super::super::disc::Disc;
 use super::super::eclipse;
-use super::super::irradiance::{Illuminance, Irradiance, diffuse_horizontal, horizontal_irradiance};
+use super::super::irradiance::{Illuminance, Irradiance, Nodes, diffuse_horizontal, horizontal_irradiance};
 use super::super::layers::{Layer, LayerScales};
 use super::Sky;
 use super::pictured::Wanted;
@@ -115,7 +115,7 @@ impl Sky {
         let sunlight = self.sunlight(wavelengths_nm);
         let transmittance = self.direct_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
-        let diffuse = self.diffuse_horizontal(field, progress)?;
+        let diffuse = self.diffuse_horizontal(field, Nodes::FEW, progress)?;
         let in_the_air = self.sunlight_in_the_air(wavelengths_nm);
         Ok(Irradiance {
             direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
@@ -139,7 +139,9 @@ impl Sky {
         // Colours of some hundreds of directions, with the aureole applied exactly between them, cost a quarter of spectra in all that the integral needs.
         let dome = self.dome(field, &self.sun, sky_weights, Wanted::FROM_ABOVE, Vec::new(), progress)?;
         let uncovered = self.uncovered_at(&[eclipse::MIDDLE_NM])[0];
-        let by_sunlight = horizontal_irradiance(&dome, |altitude| eclipse::gain_of_sky(uncovered, altitude))[1];
+        let by_sunlight = horizontal_irradiance(&dome, Nodes::MANY, self.sun.azimuth_deg.to_radians(), |altitude| {
+            eclipse::gain_of_sky(uncovered, altitude)
+        })[1];
         let night = self.night_light(field, &LayerScales::default(), Wanted::FROM_ABOVE, progress)?;
         let moons = night.only(Layer::Moon).discs();
         // A sum of nothing would be -0.
@@ -148,7 +150,8 @@ impl Sky {
         };
         let moon_normal_lx = by_the_moon(|_| 1.0);
         let moon_horizontal_lx = by_the_moon(|disc| disc.direction.z.max(0.0));
-        let diffuse_horizontal_lx = LUMINOUS_EFFICACY * (by_sunlight + horizontal_irradiance(&night, |_| 1.0)[1]);
+        let diffuse_horizontal_lx =
+            LUMINOUS_EFFICACY * (by_sunlight + horizontal_irradiance(&night, Nodes::FEW, 0.0, |_| 1.0)[1]);
         Ok(Illuminance {
             direct_normal_lx,
             direct_horizontal_lx,
@@ -160,9 +163,9 @@ impl Sky {
     }
 
     /// Irradiance of the horizontal plane by the sky per unit of what [`eclipse::sky_share`] leaves of sunlight, by wavelength.
-    pub(super) fn diffuse_horizontal(&self, field: &LightField, progress: &Progress) -> Result<Vec<f64>> {
+    pub(super) fn diffuse_horizontal(&self, field: &LightField, nodes: Nodes, progress: &Progress) -> Result<Vec<f64>> {
         let uncovered = self.uncovered_at(&[eclipse::MIDDLE_NM])[0];
-        diffuse_horizontal(field, &self.observer(), |altitude| eclipse::gain_of_sky(uncovered, altitude), progress)
+        diffuse_horizontal(field, &self.observer(), nodes, |altitude| eclipse::gain_of_sky(uncovered, altitude), progress)
     }
 
     /// Takes values per unit solar irradiance at the solved wavelengths to absolute values at `wavelengths_nm`.

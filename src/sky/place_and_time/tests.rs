@@ -211,20 +211,25 @@ fn colours_of_sun_and_moon_are_in_their_space_however_low_they_stand() {
     assert!(outside >= 5, "the test has colours outside Rec. 709");
 }
 
-/// By the colours of a dome, and by spectra in each direction of the integral.
+/// By the colours of a dome, and by spectra that are gathered in each of very many directions.
 #[test]
 fn the_illuminance_of_the_sky_is_the_integral_of_its_spectra() {
+    use crate::sky::irradiance::Nodes;
     for parameters in [AirParameters::default(), AirParameters { aod550: Some(0.6), ..AirParameters::default() }] {
         let atmosphere = Arc::new(Atmosphere::new(&parameters, Quality::Standard, true).unwrap());
-        for (altitude, tolerance) in [(88.0, 1e-4), (40.0, 1e-4), (8.0, 1e-4), (0.0, 1e-4), (-4.0, 2e-4), (-10.0, 1e-3)] {
+        // Gathering in few directions is 1.6e-3 off under the highest of these Suns, whose aureole is at the zenith.
+        for (altitude, tolerance) in [(88.0, 1e-3), (40.0, 1e-3), (8.0, 1e-3), (0.0, 1e-3), (-4.0, 1e-3), (-10.0, 2e-3)] {
             let sky = sky(&atmosphere, altitude, 0.0);
             let field = sky.field(&Progress::silent()).unwrap();
-            let spectrum = sky.diffuse_horizontal(field, &Progress::silent()).unwrap();
             let weights = sky.sky_weights().unwrap();
-            let exact =
-                crate::units::LUMINOUS_EFFICACY * spectrum.iter().zip(weights).map(|(value, w)| value * w[1]).sum::<f64>();
+            let by_spectra = |nodes: Nodes| {
+                let spectrum = sky.diffuse_horizontal(field, nodes, &Progress::silent()).unwrap();
+                crate::units::LUMINOUS_EFFICACY * spectrum.iter().zip(&weights).map(|(value, w)| value * w[1]).sum::<f64>()
+            };
+            let exact = by_spectra(Nodes { circles: 96, azimuths: 400 });
             let found = sky.illuminance(&Progress::silent()).unwrap().diffuse_horizontal_lx;
-            println!("Sun {altitude}: {found} lx, {:+.2e}", found / exact - 1.0);
+            let few = by_spectra(Nodes::FEW);
+            println!("Sun {altitude}: {found} lx, {:+.2e}; by few spectra {:+.2e}", found / exact - 1.0, few / exact - 1.0);
             assert!((found / exact - 1.0).abs() < tolerance, "Sun {altitude}: {found} is not {exact}");
         }
     }
