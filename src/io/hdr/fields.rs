@@ -95,10 +95,8 @@ impl Header {
                     note("PRIMARIES", "no primaries of a colour space, left aside");
                 }
             }
-            "PIXASPECT" => {
-                if leading_numbers::<1>(value).is_none_or(|[aspect]| (aspect - 1.0).abs() > 1e-3) {
-                    note("PIXASPECT", "pixels are taken as square");
-                }
+            "PIXASPECT" if leading_numbers::<1>(value).is_none_or(|[aspect]| (aspect - 1.0).abs() > 1e-3) => {
+                note("PIXASPECT", "pixels are taken as square");
             }
             name if name.starts_with("skyprobe.") && (self.fields.len() < MOST_FIELDS || self.fields.contains_key(name)) => {
                 self.fields.insert(name.to_owned(), value.to_owned());

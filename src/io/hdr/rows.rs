@@ -114,7 +114,9 @@ mod tests {
     #[test]
     fn old_run_lengths_are_those_of_radiance() {
         // checked against: ray/src/common/color.c, oldreadcolrs, "least significant byte first", "the rest of the repetition will be silently ignored"
-        let cases: [(&[[u8; 4]], &[([u8; 4], usize)], usize); 11] = [
+        // Bytes, the pixels in them and how often, and how many bytes are left.
+        type Case<'a> = (&'a [[u8; 4]], &'a [([u8; 4], usize)], usize);
+        let cases: [Case<'_>; 11] = [
             (&[A, repeat(2), B], &[(A, 3), (B, 1)], 0),
             (&[A, repeat(0), repeat(1)], &[(A, 257)], 0),
             (&[A, repeat(0), repeat(0), B], &[(A, 1), (B, 1)], 0),

@@ -61,7 +61,8 @@ fn pieces(text: &str, length: usize) -> Vec<&str> {
     let mut rest = text;
     let mut pieces = Vec::new();
     while !rest.is_empty() {
-        let (piece, behind) = rest.split_at(rest.floor_char_boundary(length));
+        let end = (0..=length.min(rest.len())).rev().find(|&end| rest.is_char_boundary(end)).unwrap_or(rest.len());
+        let (piece, behind) = rest.split_at(end);
         pieces.push(piece);
         rest = behind;
     }
