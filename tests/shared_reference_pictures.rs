@@ -29,21 +29,21 @@ fn is_all(picture: &Picture, expected: [f32; 3]) -> bool {
 
 #[test]
 fn names_in_lower_case() {
-    for picture in read("e1_lowercase_rgb.exr") {
+    if let Some(picture) = read("e1_lowercase_rgb.exr") {
         assert!(is_all(&picture, [1.0, 0.5, 0.25]));
     }
 }
 
 #[test]
 fn chromaticities_of_zeros() {
-    for picture in read("e4_chromaticities_all_zero.exr") {
+    if let Some(picture) = read("e4_chromaticities_all_zero.exr") {
         assert!(picture.color_space == ColorSpace::LinRec709 && is_all(&picture, [1.0, 0.5, 0.25]));
     }
 }
 
 #[test]
 fn luminance_and_chroma() {
-    for picture in read("e2_luminance_chroma_Rec709_YC.exr") {
+    if let Some(picture) = read("e2_luminance_chroma_Rec709_YC.exr") {
         assert_eq!((picture.width, picture.height), (610, 406));
         // Luminance is that of the file, whatever the chroma: 0.3438 and 0.3203 in its first pixels.
         for (pixel, expected) in picture.pixels.as_chunks::<3>().0.iter().zip([0.3438, 0.3203, 0.295, 0.2773]) {
@@ -58,14 +58,14 @@ fn luminance_and_chroma() {
 
 #[test]
 fn a_map_of_directions() {
-    for picture in read("e7_envmap_latlong.exr") {
+    if let Some(picture) = read("e7_envmap_latlong.exr") {
         assert_eq!((picture.width, picture.height, picture.view), (1024, 512, View::LatLong { rows: Rows::Corner }));
     }
 }
 
 #[test]
 fn hostile_pictures_are_refused() {
-    for folder in folder() {
+    if let Some(folder) = folder() {
         for (name, told) in [("dwa_abort.exr", "impossible counters"), ("display_bomb.exr", "max_megapixels = 256")] {
             let error = read_picture(folder.join(name), &Default::default()).unwrap_err().to_string();
             assert!(error.contains(told), "{error}");
