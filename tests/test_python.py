@@ -478,7 +478,7 @@ def main():
     print("equal")
 
 def during():
-    """A child made while another thread of its parent solves."""
+    # A child made while another thread of its parent solves.
     fork = multiprocessing.get_context("fork")
     begun, go_on = threading.Event(), threading.Event()
     def listen(stage, fraction):
