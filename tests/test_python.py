@@ -526,8 +526,8 @@ def test_a_child_of_a_process_at_work_says_so_at_once() -> None:
 
 def test_air_too_thick_for_the_solver_is_told_as_such() -> None:
     for air in [
-        sp.Atmosphere("fog", aod550=25, quality="draft"),
-        sp.Atmosphere("desert", aod550=50, quality="draft"),
+        sp.Atmosphere(preset="fog", aod550=50, quality="draft"),
+        sp.Atmosphere(preset="desert", aod550=50, quality="draft"),
         slab(optical_depth=20.0, ground_albedo=1.0),
     ]:
         sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=180.0, atmosphere=air)
