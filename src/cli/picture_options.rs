@@ -6,9 +6,9 @@ use crate::io::{PictureHints, PictureLimits, read_picture};
 use crate::post::{Picture, Repairs};
 use crate::units::Scale;
 use clap::Args;
-use std::sync::{Mutex, PoisonError};
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 const PICTURE: &str = "Picture";
 

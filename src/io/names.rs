@@ -18,7 +18,7 @@ pub(super) fn refused_by_windows(path: &Path) -> Option<String> {
         let mut rest = stem.strip_prefix(*device).unwrap_or_default().chars();
         rest.next().is_some_and(|number| NUMBERS.contains(number)) && rest.next().is_none()
     };
-    if DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(|device| numbered(&device)) {
+    if DEVICES.contains(&stem.as_str()) || NUMBERED.iter().any(numbered) {
         return Some(format!("{stem} is the name of a device of Windows"));
     }
     if name.ends_with(['.', ' ']) {

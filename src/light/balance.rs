@@ -61,7 +61,7 @@ pub fn check(profile: &OpticalProfile, first: usize, block: &Block, grid: &Grid)
     }
     for (&error, &wavelength) in error_on_the_ground(block, grid).iter().zip(&profile.wavelengths_nm[first..]) {
         // Not a number is no small one.
-        if !(error.abs() <= LARGEST_ERROR) {
+        if error.is_nan() || error.abs() > LARGEST_ERROR {
             let (size, word) = (100.0 * error.abs(), if error < 0.0 { "vanishes" } else { "comes from nowhere" });
             let limit = 100.0 * LARGEST_ERROR;
             return Err(unsolved(

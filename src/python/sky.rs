@@ -452,8 +452,13 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Probe> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
-        let settings =
-            probe_settings(width, [projection, rows, extent, ground], turn_deg, [sun_disc, moon_disc], [scale, color_space, gamut])?;
+        let settings = probe_settings(
+            width,
+            [projection, rows, extent, ground],
+            turn_deg,
+            [sun_disc, moon_disc],
+            [scale, color_space, gamut],
+        )?;
         let rendered =
             work::run(py, progress, |progress| probe::render(&self.inner.light_by(&light, progress)?, &settings, progress))?;
         Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &light, &settings)))
@@ -503,8 +508,13 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let light = self.light_options(polarising_filter, tolerance, layers)?;
-        let settings =
-            probe_settings(width, [projection, rows, extent, ground], turn_deg, [sun_disc, moon_disc], [scale, color_space, gamut])?;
+        let settings = probe_settings(
+            width,
+            [projection, rows, extent, ground],
+            turn_deg,
+            [sun_disc, moon_disc],
+            [scale, color_space, gamut],
+        )?;
         let options = FileOptions {
             half: half.map_or(Ok(Half::Off), read_half)?,
             exposure_stops,

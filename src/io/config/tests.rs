@@ -138,9 +138,11 @@ fn any_probe() -> impl Strategy<Value = ProbeSettings> {
         select(vec![ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz]),
         select(vec![Gamut::Desaturate, Gamut::Clip, Gamut::Keep]),
     );
-    (image, colour).prop_map(|((width, projection, rows, extent, ground), (turn_deg, [sun_disc, moon_disc], scale, color_space, gamut))| {
-        ProbeSettings { width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut }
-    })
+    (image, colour).prop_map(
+        |((width, projection, rows, extent, ground), (turn_deg, [sun_disc, moon_disc], scale, color_space, gamut))| {
+            ProbeSettings { width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut }
+        },
+    )
 }
 
 fn any_light() -> impl Strategy<Value = LightOptions> {

@@ -249,7 +249,8 @@ mod tests {
 
     #[test]
     fn the_picture_is_told_from_what_is_beside_it() {
-        let cases: [(&[&str], Option<(Colours, &[&str])>); 20] = [
+        type Case<'a> = (&'a [&'a str], Option<(Colours, &'a [&'a str])>);
+        let cases: [Case<'_>; 20] = [
             (&["b", "g", "r"], Some((Colours::Rgb, &["r", "g", "b"]))),
             (&["blue", "green", "red"], Some((Colours::Rgb, &["red", "green", "blue"]))),
             (&["B", "g", "r", "R", "b", "G"], Some((Colours::Rgb, &["R", "G", "B"]))),

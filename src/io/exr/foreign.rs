@@ -23,7 +23,8 @@ fn message(bytes: &[u8]) -> String {
 
 #[test]
 fn colours_of_any_spelling_and_layer_are_read() {
-    let cases: [(&[(&str, f32)], [f32; 3]); 8] = [
+    type Case<'a> = (&'a [(&'a str, f32)], [f32; 3]);
+    let cases: [Case<'_>; 8] = [
         (&[("b", 3.0), ("g", 2.0), ("r", 1.0)], [1.0, 2.0, 3.0]),
         (&[("Blue", 3.0), ("GREEN", 2.0), ("red", 1.0)], [1.0, 2.0, 3.0]),
         (&[("C.a", 9.0), ("C.b", 3.0), ("C.g", 2.0), ("C.r", 1.0)], [1.0, 2.0, 3.0]),

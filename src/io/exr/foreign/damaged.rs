@@ -9,7 +9,7 @@ use ::exr::prelude::{
 /// A file of 40 x 24 pixels, written by the crate.
 fn sound(compression: Compression, blocks: Blocks, halves: bool) -> Vec<u8> {
     let size = 40 * 24;
-    let value = |start: f32, k: usize| start + (k % 40) as f32 * 0.25 + if k % 7 == 0 { 3.0 } else { 0.0 };
+    let value = |start: f32, k: usize| start + (k % 40) as f32 * 0.25 + if k.is_multiple_of(7) { 3.0 } else { 0.0 };
     let samples = |start: f32| -> FlatSamples {
         if halves {
             FlatSamples::F16((0..size).map(|k| f16::from_f32(value(start, k))).collect())
