@@ -74,14 +74,24 @@ CASES = {
     "counters of 70 terabytes": block(header((0, 0, 15, 15), compression=8), COUNTERS + bytes(2800)),
     "36000 channels": header((0, 0, 0, 0), names=[f"{k:05}.R" for k in range(36000)]),
     "100000 parts": struct.pack("<II", 0x01312F76, 0x1002) + b"x\0string\0\0\0\0\0\0" * 100_000,
+    "250 x 250 pixels in 15999 x 15999": header((0, 0, 249, 249), (0, 0, 15998, 15998)) + bytes(4096),
+    "zeros that unpack to 256 million pixels": header((0, 0, 15998, 15998), compression=3) + bytes(535_000),
     "an attribute of 2 GB": header((0, 0, 0, 0))[:-1] + b"p\0preview\0" + struct.pack("<i", INT_MAX),
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+ONE_COLOUR = bytes([128, 64, 32, 129, 1, 1, 1, 255, 1, 1, 1, 127])
+RADIANCE = {
+    "rows of one colour": b"#?RADIANCE\n\n-Y 976 +X 32768\n" + 976 * ONE_COLOUR,
+    "131 kB of zeros": b"#?RADIANCE\n\n-Y 32768 +X 32768\n" + bytes(131_072),
+    "a header of 40 MB": b"#?RADIANCE\n" + 4_000_000 * b"# comment\n",
+}
+
+
+@pytest.mark.parametrize("name", [*CASES, *RADIANCE])
 def test_hostile_files_are_refused(binary: str, tmp_path: pathlib.Path, name: str) -> None:
-    source, target = tmp_path / "a.exr", tmp_path / "b.exr"
-    source.write_bytes(CASES[name])
+    source, target = tmp_path / ("a.exr" if name in CASES else "a.hdr"), tmp_path / "b.exr"
+    source.write_bytes({**CASES, **RADIANCE}[name])
     # An allocation beyond this fails: one that were made in full would end the process.
     bound = 4 << 30
     limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (bound, bound))  # noqa: E731

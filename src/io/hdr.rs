@@ -3,7 +3,7 @@
 //! Four bytes a pixel: with e such that the largest component lies in [2^(e-1), 2^e), bytes round(256 c / 2^e) and e + 128. Rounding to nearest
 //! fits readers that decode a byte b as b 2^e / 256, as Blender, Mitsuba and OpenImageIO do (error at most 0.5 / 256 of 2^e);
 //! Radiance itself adds half a step and so reads pixels brighter by that. Negative components cannot be written and become 0.
-//! Rows are run-length encoded one component after the other.
+//! Rows are run-length encoded one component after the other, if they have the widths for which the format knows that.
 
 mod fields;
 mod read;
@@ -15,6 +15,9 @@ pub(super) use read::{parse_rgb, read_rgb};
 pub(super) use write::{header, picture_header};
 
 use rayon::prelude::*;
+
+/// Widths of the rows that readers take for run-length encoded; others are written pixel by pixel.
+const PACKED_WIDTHS: std::ops::RangeInclusive<usize> = 8..=0x7fff;
 
 /// The bytes of a linear colour.
 ///
@@ -50,6 +53,9 @@ pub fn decode([red, green, blue, exponent]: [u8; 4]) -> [f32; 3] {
 pub(super) fn encode_rows(width: usize, pixels: &[f32]) -> Vec<Vec<u8>> {
     let encode_row = |pixels: &[f32]| {
         let row: Vec<[u8; 4]> = pixels.as_chunks::<3>().0.iter().map(|&pixel| encode(pixel)).collect();
+        if !PACKED_WIDTHS.contains(&width) {
+            return row.into_iter().flatten().collect();
+        }
         let mut packed = vec![2, 2, (width >> 8) as u8, (width & 255) as u8];
         (0..4).for_each(|component| pack(&row, component, &mut packed));
         packed
@@ -112,6 +118,20 @@ mod tests {
         assert_eq!(encode([0.0; 3]), [0; 4]);
         assert_eq!(encode([-1.0, 0.999_999, 0.0]), [0, 128, 0, 129]);
         assert_eq!(encode([f32::MAX, 1.0, 0.0]), [255; 4]);
+    }
+
+    #[test]
+    fn rows_of_every_width_come_back() {
+        for width in [1, 7, 8, 0x7fff, 0x8000] {
+            // 2, 2 in the first bytes, as packed rows begin.
+            let pixels: Vec<f32> = (0..6 * width).map(|k| if k < 3 { 2.0 } else { 1.0 + (k / 3 % 5) as f32 }).collect();
+            let rows = encode_rows(width, &pixels).concat();
+            let bytes = [format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X {width}\n").as_bytes(), &rows].concat();
+            let back = parse_rgb(std::path::Path::new("a.hdr"), &bytes, &crate::io::PictureLimits::default()).unwrap();
+            assert_eq!((back.width, back.height), (width, 2));
+            assert!(back.pixels == pixels, "{width}");
+            assert_eq!(rows.len() == 8 * width, !PACKED_WIDTHS.contains(&width));
+        }
     }
 
     proptest! {

@@ -7,6 +7,12 @@ use std::path::Path;
 /// Most pixels of any picture [millions]: [`MAX_SIDE`] squared.
 pub(super) const ALL_MEGAPIXELS: f64 = (MAX_SIDE * MAX_SIDE) as f64 / 1e6;
 
+/// More pixels than these come of a byte of a file only where one colour fills most of the picture.
+const PIXELS_OF_A_BYTE: u64 = 64;
+
+/// Pictures with no more than this part of the most pixels may be of one colour: 8 million by default, as a probe of 4096 x 2048 has.
+const PART_OF_ONE_COLOUR: u64 = 30;
+
 /// Bounds of what the readers of pictures take from a file before they refuse it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureLimits {
@@ -50,6 +56,20 @@ impl PictureLimits {
             return Err(Error::input("max_megapixels", self.max_megapixels, allowed));
         }
         Ok(pixels as usize)
+    }
+
+    /// As [`Self::check`], for a picture that the `bytes` of a file make: a large one that so few bytes make is hardly a picture, and has to be asked for.
+    ///
+    /// # Errors
+    /// As [`Self::check`].
+    pub fn check_made_of(&self, path: &Path, (width, height): (u64, u64), bytes: u64) -> Result<usize> {
+        let pixels = self.check(path, width, height)?;
+        let least = ((PART_OF_ONE_COLOUR * pixels as u64) as f64 / 1e6).min(ALL_MEGAPIXELS);
+        if pixels as u64 / PIXELS_OF_A_BYTE > bytes && self.max_megapixels < least {
+            let allowed = format!("at least {least} to read {}, which makes {width} x {height} pixels of {bytes} bytes", path.display());
+            return Err(Error::input("max_megapixels", self.max_megapixels, allowed));
+        }
+        Ok(pixels)
     }
 }
 

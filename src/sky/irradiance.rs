@@ -105,6 +105,8 @@ pub(super) fn horizontal_irradiance(
         row.iter().fold([0.0; 3], |sum, xyz| std::array::from_fn(|k| sum[k] + share * f64::from(xyz[k])))
     };
     let add = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| a[k] + b[k]);
-    let smooth = gauss::legendre(nodes.circles).into_par_iter().map(circle).reduce(|| [0.0; 3], add);
+    // In one order, so that the sum does not depend on the threads.
+    let circles: Vec<[f64; 3]> = gauss::legendre(nodes.circles).into_par_iter().map(circle).collect();
+    let smooth = circles.into_iter().fold([0.0; 3], add);
     light.points().iter().fold(smooth, |sum, point| add(sum, point.irradiance.map(|value| value * point.direction.z.max(0.0))))
 }

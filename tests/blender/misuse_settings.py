@@ -142,7 +142,7 @@ def place_of_pictures(stage):
     return _place(stage, "\N{ROCKET}\N{FULL MOON SYMBOL}")
 
 
-@case(" ... ")
+@case("at most 200 bytes")
 def endless_place(stage):
     """A place of 10 000 letters."""
     return _place(stage, "Lund" * 2_500)

@@ -13,7 +13,8 @@ def test_the_zip_holds_every_part_of_the_add_on(extension, wheel):
         for path in folder.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts and path.name != "build.py"
     }
-    assert names == sources | {f"wheels/{wheel.name}"}
+    licences = {path.name for path in hosts.ROOT.glob("LICENSE-*")}
+    assert len(licences) == 3 and names == sources | licences | {f"wheels/{wheel.name}"}
 
 
 def test_ten_times_off_and_on_leaves_nothing_behind(host):

@@ -80,6 +80,9 @@ fn check_size<R: Read + Seek>(source: &Source<'_, R>, limits: &PictureLimits, pa
         let (size, of) = (format!("{} x {}", picture.0, picture.1), format!("{} x {}", data.0, data.1));
         return Err(source.unread(format!("OpenEXR with a display window of {size} pixels, all but {of} of them empty: crop it")));
     }
+    for size in [data, picture] {
+        limits.check_made_of(source.path(), size, source.length())?;
+    }
     Ok(())
 }
 

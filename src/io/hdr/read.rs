@@ -5,21 +5,15 @@ use super::fields::{Header, Parsed, line};
 use super::rows::{least_bytes, read_row};
 use crate::error::{Error, Result};
 use crate::io::PictureLimits;
-use crate::io::limits::{ALL_MEGAPIXELS, zeros};
+use crate::io::limits::zeros;
 use crate::io::read::Raw;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Seek, SeekFrom};
 use std::path::Path;
 
-/// More pixels than these come of a byte only where one colour fills rows: in the new run lengths 127 of 8 bytes.
-const PIXELS_OF_A_BYTE: u64 = 64;
-
 /// Longest line of the size [bytes].
 const LONGEST_SIZE: usize = 1 << 10;
-
-/// Pictures with fewer pixels than this part of the limit may be of one colour.
-const PART_OF_ONE_COLOUR: u64 = 8;
 
 /// Reads a Radiance file. The pixels are divided by the product of its EXPOSURE lines and those of COLORCORR: what the camera or the renderer saw.
 ///
@@ -113,13 +107,7 @@ impl Layout {
         if bytes < self.count as u64 * least_bytes(self.length) {
             return Err(refusal(path, &format!("the file ends early: {width} x {height} pixels in {bytes} bytes")));
         }
-        let least = ((PART_OF_ONE_COLOUR * pixels as u64) as f64 / 1e6).min(ALL_MEGAPIXELS);
-        if pixels as u64 / PIXELS_OF_A_BYTE > bytes && limits.max_megapixels < least {
-            let allowed =
-                format!("at least {least} to read {}, which makes {width} x {height} pixels of {bytes} bytes", path.display());
-            return Err(Error::input("max_megapixels", limits.max_megapixels, allowed));
-        }
-        Ok(pixels)
+        limits.check_made_of(path, (width as u64, height as u64), bytes)
     }
 
     /// Reads all lines from `start` on, and hands each over with its number.
