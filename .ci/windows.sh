@@ -100,7 +100,7 @@ build_wheel() {
 
 run_tests() {
     inside env CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine WINEDEBUG=-all XDG_RUNTIME_DIR=/tmp PROPTEST_RNG_SEED=20051 \
-        cargo test --release --locked --target "$target" -Zbuild-std=std,panic_abort --test cli --test windows
+        cargo test --release --locked --target "$target" -Zbuild-std=std,panic_abort --test cli --test cli_files --test windows
 }
 
 [ "$(id -u)" = 0 ] || fail "a folder becomes a root only for root"

@@ -3,16 +3,19 @@
 //! There are few kinds on purpose: mend the input, mend the data, look at the
 //! disk, ask for other air, or accept that the work was cancelled.
 
+use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Result of every fallible operation of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// The five ways in which work ends without a result.
+///
+/// As text each is one line, whatever the files and names say that it speaks of: signs of control are escaped, and long texts cut.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The caller gave a value that cannot be used; nothing was computed.
-    #[error("{parameter} = {value}: must be {allowed}")]
+    #[error("{} = {}: must be {}", OneLine(parameter, LONGEST), OneLine(value, LONGEST), OneLine(allowed, usize::MAX))]
     Input {
         /// Name of the parameter as the caller knows it, the same in Rust, Python, configuration and command line.
         parameter: String,
@@ -22,19 +25,19 @@ pub enum Error {
         allowed: String,
     },
     /// A table or file has content that cannot be used.
-    #[error("{what}")]
+    #[error("{}", OneLine(what, usize::MAX))]
     Data {
         /// What is wrong with which data.
         what: String,
     },
     /// The light of this air cannot be found, or not well enough; what was found is not returned.
-    #[error("{what}")]
+    #[error("{}", OneLine(what, usize::MAX))]
     Unsolved {
         /// What is wrong with the solution, what of the air is to blame, and what would help.
         what: String,
     },
     /// Reading or writing failed; a target file is untouched.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: {}", OneLine(&path.display().to_string(), usize::MAX), OneLine(reason, usize::MAX))]
     File {
         /// The file that was to be read or written.
         path: PathBuf,
@@ -65,6 +68,29 @@ impl Error {
     /// An [`Error::File`] for `path`.
     pub fn file(path: impl AsRef<Path>, reason: impl ToString) -> Self {
         Self::File { path: path.as_ref().to_path_buf(), reason: reason.to_string() }
+    }
+}
+
+/// Letters of a parameter and of a value that a message shows at most: either may come from a file.
+const LONGEST: usize = 500;
+
+/// A text on one line, without what terminals obey, and not longer than so many letters.
+pub(crate) struct OneLine<'a>(pub &'a str, pub usize);
+
+impl fmt::Display for OneLine<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (shown, more) = match self.0.char_indices().nth(self.1) {
+            Some((end, _)) => (&self.0[..end], "..."),
+            None => (self.0, ""),
+        };
+        for letter in shown.chars() {
+            match letter {
+                '\u{2028}' | '\u{2029}' => write!(f, "{}", letter.escape_unicode())?,
+                _ if letter.is_control() => write!(f, "{}", letter.escape_default())?,
+                _ => f.write_char(letter)?,
+            }
+        }
+        f.write_str(more)
     }
 }
 
@@ -112,5 +138,20 @@ mod tests {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert!(check_range("turbidity", value, f64::MIN, f64::MAX, "").is_err());
         }
+    }
+
+    #[test]
+    fn a_message_is_one_line_whatever_the_text_that_it_speaks_of() {
+        let (ended, shown) = ("a\nb\r\t\u{1b}[2J\u{85}\u{2028}ö\\", "a\\nb\\r\\t\\u{1b}[2J\\u{85}\\u{2028}ö\\");
+        for (error, expected) in [
+            (Error::input(ended, ended, ended), format!("{shown} = {shown}: must be {shown}")),
+            (Error::data(ended), shown.to_owned()),
+            (Error::unsolved(ended), shown.to_owned()),
+            (Error::file(ended, ended), format!("{shown}: {shown}")),
+        ] {
+            assert_eq!(error.to_string(), expected);
+        }
+        let long = Error::input("ö".repeat(100_000), "v".repeat(100_000), "short").to_string();
+        assert!(long.ends_with("v...: must be short") && long.chars().count() < 1100, "{}", long.len());
     }
 }

@@ -16,7 +16,7 @@ mod shell;
 mod terminal;
 mod tonemap;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, OneLine, Result};
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
@@ -133,7 +133,8 @@ fn answer(text: &str) -> Result<()> {
 }
 
 fn complain(message: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", message.split(['\n', '\r']).map(str::trim).collect::<Vec<_>>().join(" "));
+    let message = message.split(['\n', '\r']).map(str::trim).collect::<Vec<_>>().join(" ");
+    let _ = writeln!(std::io::stderr(), "{}", OneLine(&message, usize::MAX));
 }
 
 /// What clap says over several lines, without the usage.

@@ -17,6 +17,7 @@ pub fn seconds(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn times_are_read_as_numbers_and_as_fractions() {
@@ -33,6 +34,18 @@ mod tests {
         }
         for text in ["", "/", "1/", "/250", "1/0", "0/0", "1/2/3", "0,004", "1/x", "nan", "inf", "1//2", "s", "1e999"] {
             assert!(seconds(text).is_err(), "{text}");
+        }
+    }
+    proptest! {
+        #[test]
+        fn whatever_is_written_is_a_finite_time_or_an_error(text in "\\PC*|[ +\\-0-9.eE/sna]{0,16}") {
+            prop_assert!(seconds(&text).is_ok_and(f64::is_finite) || seconds(&text).is_err_and(|told| told.contains("1/250")));
+        }
+
+        #[test]
+        fn fractions_are_what_they_say(above in -1e6..1e6f64, below in 1e-6..1e6f64, space in " {0,2}", unit in "s?") {
+            prop_assert_eq!(seconds(&format!("{above}{space}/{space}{below}{space}{unit}")), Ok(above / below));
+            prop_assert_eq!(seconds(&format!("{space}{above:e}{space}{unit}{space}")), Ok(above));
         }
     }
 }

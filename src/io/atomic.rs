@@ -206,6 +206,7 @@ fn replaceable(path: &Path, target: &Path) -> Result<Option<Metadata>> {
 /// An empty, locked file in `folder`, as much like the one that it will replace as can be.
 fn temporary(path: &Path, folder: &Path, replaced: Option<&Metadata>) -> Result<(NamedTempFile, Registered)> {
     let failed = |error: std::io::Error| Error::file(path, format!("cannot write there: {error}"));
+    #[cfg_attr(not(unix), expect(unused_mut, reason = "permissions are of Unix"))]
     let mut builder = leftovers::builder();
     // What a new file usually gets (less the umask): temporary files are private by default, as one should be that replaces a private one.
     #[cfg(unix)]

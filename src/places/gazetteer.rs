@@ -209,6 +209,14 @@ pub(super) struct Keys {
     pub places: Vec<u32>,
 }
 
+impl Keys {
+    /// The key of that index.
+    pub fn text(&self, key: usize) -> &str {
+        let end = self.starts.get(key + 1).map_or(self.text.len(), |&next| next as usize) - 1;
+        &self.text[self.starts[key] as usize..end]
+    }
+}
+
 impl Gazetteer {
     pub fn place(&'static self, index: usize) -> NamedPlace {
         let row = &self.rows[index];

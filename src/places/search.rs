@@ -135,7 +135,7 @@ fn match_names(gazetteer: &Gazetteer, wanted: &str, qualities: &[Option<u8>], fo
         let place = keys.places[key];
         let row = &gazetteer.rows[place as usize];
         let Some(quality) = qualities[usize::from(row.region)] else { continue };
-        let end = keys.starts.get(key + 1).map_or(keys.text.len(), |&start| start as usize) - 1;
+        let end = keys.starts[key] as usize + keys.text(key).len();
         if let Some(exactness) = exactness(&keys.text[at..end], &words, at == keys.starts[key] as usize) {
             let is_main_name = key == 0 || keys.places[key - 1] != place;
             let counts_in_full = is_main_name || exactness == Exactness::Whole;
