@@ -124,3 +124,55 @@ fn at_the_border_light_is_right_or_refused() {
     }
     assert!(refused > 0);
 }
+
+/// Ordinary air at one wavelength or several, with a vertical optical depth of absorption for each.
+fn absorbing(scattering: f64, absorption: &[f64]) -> OpticalProfile {
+    let mut profile = slab(scattering, 0.2);
+    let count = absorption.len();
+    profile.wavelengths_nm = (0..count).map(|w| 550.0 + w as f64).collect();
+    profile.ground_albedo = vec![0.2; count];
+    profile.solar_irradiance = vec![1.0; count];
+    let component = &mut profile.components[0];
+    component.scattering_per_km = vec![scattering / 10.0; 2 * count];
+    component.absorption_per_km = absorption.iter().chain(absorption).map(|depth| depth / 10.0).collect();
+    component.phase = Some(Phase::Rayleigh { depolarisation: vec![0.0; count] });
+    profile
+}
+
+/// Rounding over next to nothing is no light from nowhere.
+#[test]
+fn ground_that_absorption_darkens_is_right_when_it_is_dark() {
+    for scattering in [0.01, 0.2] {
+        for depth in [10.0, 20.0, 30.0, 40.0, 50.0, 100.0] {
+            let profile = absorbing(scattering, &[depth]);
+            let field = solve(&profile, Quality::Draft, true).unwrap_or_else(|error| panic!("{scattering} {depth}: {error}"));
+            let on_the_ground = field.ground_irradiance(COSINE.acos())[0];
+            let direct = COSINE * (-(depth + scattering) / COSINE).exp();
+            assert!(
+                on_the_ground >= 0.9 * direct - 1e-9 && on_the_ground < 1.5 * direct + 1e-6,
+                "{scattering} {depth}: {on_the_ground}"
+            );
+        }
+        let alone = absorbing(scattering, &[0.1]);
+        let among = absorbing(scattering, &[0.1, 50.0, 0.1, 100.0]);
+        let [alone, among] = [alone, among].map(|profile| solve(&profile, Quality::Draft, true).unwrap());
+        let [alone, among] = [alone, among].map(|field| field.ground_irradiance(COSINE.acos())[0]);
+        assert!((among / alone - 1.0).abs() < 5e-3, "{scattering}: {among} {alone}");
+    }
+}
+
+/// Nothing of what can be typed here is beyond the solver.
+#[test]
+fn extremes_that_can_be_typed_are_solved() {
+    let mut airs: Vec<String> =
+        [r#"{"turbidity": 64}"#, r#"{"preset": "fog", "visibility_km": 0.1}"#, r#"{"ozone_du": 1000}"#].map(String::from).into();
+    for aerosol in ["continental_clean", "continental_average", "continental_polluted", "urban", "desert", "maritime_clean"] {
+        airs.push(format!(r#"{{"aerosol": "{aerosol}", "aod550": 5, "ground": "snow"}}"#));
+    }
+    for json in airs {
+        let parameters: AirParameters = serde_json::from_str(&json).unwrap();
+        let solved = solve(&parameters.optical_profile(&wavelengths(32)).unwrap(), Quality::Draft, true);
+        let errors = solved.unwrap_or_else(|error| panic!("{json}: {error}")).errors_on_the_ground();
+        assert!(errors.iter().all(|error| error.abs() < 0.03), "{json}: {errors:?}");
+    }
+}

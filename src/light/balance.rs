@@ -17,15 +17,22 @@ use super::single::direct_ground_irradiance;
 use super::solve::{Block, LANES};
 use super::source::Relative;
 use super::sunlight::Sunlight;
-use crate::atmosphere::OpticalProfile;
+use crate::atmosphere::{Component, OpticalProfile};
 use crate::error::{Error, Result};
 use std::f64::consts::PI;
 
 /// Largest error of the light on the ground, in the worst wavelength, with which a field is still a solution.
 const LARGEST_ERROR: f64 = 0.05;
 
-/// Optical depth of scattering, without forward peaks, from which no quality resolves the air: not worth a try.
+/// Part of the sunlight that meets the planet below which light on the ground counts as darkness: errors are relative to no less. Rounding of what the air above turns over is far less
+/// than [`LARGEST_ERROR`] of it.
+const DARK: f64 = 1e-4;
+
+/// Optical depth of scattering, without forward peaks, beyond which no quality resolves the air: not worth a try.
 const HOPELESS_DEPTH: f64 = 16.0;
+
+/// Vertical optical depth beyond which a component may be to blame.
+const THICK: f64 = 1.0;
 
 /// Points for each unit of vertical optical depth between two levels, where sunlight is summed; at least and at most so many.
 const PER_OPTICAL_DEPTH: f64 = 3.0;
@@ -44,7 +51,7 @@ pub fn check_depth(profile: &OpticalProfile, order: usize) -> Result<()> {
     Err(unsolved(
         profile,
         &format!(
-            "forward peaks aside it scatters with an optical depth of {thickest:.3}, and from {HOPELESS_DEPTH} on no try is made"
+            "forward peaks aside it scatters with an optical depth of {thickest:.3}, and beyond {HOPELESS_DEPTH} no try is made"
         ),
     ))
 }
@@ -60,8 +67,10 @@ pub fn check(profile: &OpticalProfile, first: usize, block: &Block, grid: &Grid)
         return Err(unsolved(profile, "it is not finite"));
     }
     for (&error, &wavelength) in error_on_the_ground(block, grid).iter().zip(&profile.wavelengths_nm[first..]) {
-        // Not a number is no small one.
-        if error.is_nan() || error.abs() > LARGEST_ERROR {
+        if !error.is_finite() {
+            return Err(unsolved(profile, &format!("at {wavelength} nm the balance of its light is not finite")));
+        }
+        if error.abs() > LARGEST_ERROR {
             let (size, word) = (100.0 * error.abs(), if error < 0.0 { "vanishes" } else { "comes from nowhere" });
             let limit = 100.0 * LARGEST_ERROR;
             return Err(unsolved(
@@ -73,33 +82,51 @@ pub fn check(profile: &OpticalProfile, first: usize, block: &Block, grid: &Grid)
     Ok(())
 }
 
-/// Says why the light of the air of `profile` is not found, what in it is to blame, and what helps.
+/// Says why the light of the air of `profile` is not found, what in it is to blame, if anything, and what helps.
 pub fn unsolved(profile: &OpticalProfile, reason: &str) -> Error {
+    let blame = |kind: &str, of: fn(&Component) -> &[f64], less_aerosol: &str| {
+        let (depth, name, wavelength) = thickest(profile, of);
+        let less = if name == "aerosol" { less_aerosol } else { "less of it" };
+        (depth > THICK).then(|| {
+            format!(
+                ". It is too thick, with a vertical optical depth of {depth:.3} of {kind} by {name} at {wavelength} nm. \
+                 What helps is {less}, and within limits a higher quality"
+            )
+        })
+    };
+    let by_scattering = || {
+        blame(
+            "scattering",
+            |component| &component.scattering_per_km,
+            "less aerosol (a smaller aod550 or turbidity, a longer visibility_km)",
+        )
+    };
+    let by_absorption =
+        || blame("absorption", |component| &component.absorption_per_km, "less aerosol, or one that absorbs less");
+    let why = by_scattering().or_else(by_absorption).unwrap_or_default();
+    Error::unsolved(format!("the light of this air cannot be found well enough: {reason}{why}"))
+}
+
+/// The greatest vertical optical depth of the coefficients `of` a component, whose it is, and its wavelength [nm].
+fn thickest(profile: &OpticalProfile, of: fn(&Component) -> &[f64]) -> (f64, &str, f64) {
     let (z, count) = (&profile.altitudes_km, profile.wavelengths_nm.len());
-    let (mut thickest, mut depth, mut wavelength) = ("air", 0.0, profile.wavelengths_nm[0]);
+    let mut thickest = (0.0, "", profile.wavelengths_nm[0]);
     for component in &profile.components {
-        for w in 0..count {
-            let at = |i: usize| component.scattering_per_km[i * count + w];
+        for (w, &wavelength) in profile.wavelengths_nm.iter().enumerate() {
+            let at = |i: usize| of(component)[i * count + w];
             let column: f64 = (1..z.len()).map(|i| 0.5 * (z[i] - z[i - 1]) * (at(i - 1) + at(i))).sum();
-            if column > depth {
-                (thickest, depth, wavelength) = (component.name.as_str(), column, profile.wavelengths_nm[w]);
+            if column > thickest.0 {
+                thickest = (column, &component.name, wavelength);
             }
         }
     }
-    let less = match thickest {
-        "aerosol" => "less aerosol (a smaller aod550 or turbidity, a longer visibility_km)",
-        _ => "less of it",
-    };
-    Error::unsolved(format!(
-        "the light of this air cannot be found well enough: {reason}. It is too thick, with a vertical optical depth of {depth:.3} of scattering by {thickest} at {wavelength} nm. \
-         What helps is {less}, and within limits a higher quality"
-    ))
+    thickest
 }
 
 /// A field's light as means over all positions of the Sun, by wavelength.
 type Means = [f64; LANES];
 
-/// Relative error of the light on the ground, as a mean over all positions of the Sun, that follows from the light which the field of `block` loses and wins, by wavelength: below 0 if
+/// Error of the light on the ground, relative to it or to [`DARK`], as a mean over all positions of the Sun, that follows from the light which the field of `block` loses and wins, by wavelength: below 0 if
 /// light is missing.
 pub fn error_on_the_ground(block: &Block, grid: &Grid) -> Means {
     let (air, sunlight, field) = (&block.air, &block.sunlight, &block.field);
@@ -131,7 +158,7 @@ pub fn error_on_the_ground(block: &Block, grid: &Grid) -> Means {
             error[n] += (high * flux[k + 1][n] - low * flux[k][n] - won[n]) * weight[n];
         }
     }
-    std::array::from_fn(|n| error[n] / on_the_ground[n].max(1e-12))
+    std::array::from_fn(|n| error[n] / on_the_ground[n].max(DARK))
 }
 
 /// What each solar zenith angle counts in a mean over the sphere, which is 1 where the integral of cosine x sine is: linear in the cosine between the angles.

@@ -7,7 +7,7 @@
 //! A change of time, place or height needs gathers only.
 //!
 //! Bottom up: `lanes` (blocks of wavelengths), `axis`, `zenith_axis`, `gauss`, `harmonics` (mathematics), `air` (one block of a profile), `ray`
-//! (steps through the shells), `stokes`, `suns`, `sunlight`, `single`, `grid`, `source`, `contracted`, `anderson`, `solve`, `angular`, `field`.
+//! (steps through the shells), `stokes`, `suns`, `sunlight`, `single`, `grid`, `source`, `contracted`, `anderson`, `iterate`, `solve`, `angular`, `field`.
 //! [`PathTracer`] judges them all: slow, simple, unbiased. [`Thesis`] is the estimator of the original thesis.
 //!
 //! Light is polarised, or a scalar on request. Molecules scatter by the exact matrix; particles and the ground take I alone and send out unpolarised light.
@@ -25,6 +25,7 @@ mod field;
 pub mod gauss;
 mod grid;
 mod harmonics;
+mod iterate;
 mod lanes;
 pub mod path_tracer;
 mod ray;

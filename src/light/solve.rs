@@ -6,10 +6,10 @@
 //! iteration (what is iterated is smooth in angle), then K is applied with all orders.
 
 use super::air::Air;
-use super::anderson::Anderson;
 use super::contracted::Contracted;
 use super::grid::{Azimuth, Grid, azimuth_interpolation, azimuths};
 use super::harmonics::{self, Orders};
+use super::iterate::iterate;
 use super::lanes::{Lanes, add_product, add_scaled, processor_fuses, splat};
 use super::ray::{Ray, StepLimits};
 use super::single::{add_strengths, direct_ground_irradiance};
@@ -17,7 +17,7 @@ use super::source::{Field, MAX_ORDER, Relative, Shape};
 use super::stokes::{add_tensor, single_dipole};
 use super::sunlight::Sunlight;
 use super::suns::{SunOnRay, Suns};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::quality::Numbers;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -29,16 +29,6 @@ pub const LANES: usize = 32;
 
 /// Orders at which the field is iterated to convergence: those that carry energy from place to place.
 const LOW_ORDER: usize = 2;
-
-/// Most iterations with acceleration, which clear air needs five of, and most without. Acceleration is lost where a few nodes at the terminator do not come to rest.
-const MAX_ACCELERATED: usize = 30;
-const MAX_PLAIN: usize = 80;
-
-/// A relative change from which nothing good comes any more.
-const HOPELESS: f32 = 1e3;
-
-/// Iterations over which it is judged how fast the change falls.
-const PATIENCE: usize = 15;
 
 /// Fewest azimuths at which strengths of single scattering are computed, and how many more for each degree that a ray runs around the planet.
 const FEWEST_AZIMUTHS: usize = 4;
@@ -86,7 +76,7 @@ impl<'a> Target<'a> {
 /// Solves the block of `air`: the low orders on the coarser `iteration_grid` until they agree with themselves, then all on `grid`.
 ///
 /// # Errors
-/// [`Error::Unsolved`] if they never agree; [`Error::Cancelled`].
+/// [`Error::Unsolved`](crate::error::Error::Unsolved) if they come nowhere near that; [`Error::Cancelled`](crate::error::Error::Cancelled).
 pub fn solve(
     (air, direct): (Air<LANES>, Option<Sunlight<LANES>>),
     grid: &Grid,
@@ -130,51 +120,6 @@ pub fn solve(
     }
     let field = Relative::new(&field);
     Ok(Block { air, sunlight, direct, field })
-}
-
-/// The field that `scatter_once_more` takes to itself, but for a relative change of `convergence`; it gets the field and the number of the iteration.
-fn iterate(
-    once: &Field<LANES>,
-    convergence: f32,
-    scatter_once_more: impl Fn(&Field<LANES>, usize) -> Result<Field<LANES>>,
-) -> Result<Field<LANES>> {
-    let (mut iterations, mut nearest) = (0, f32::INFINITY);
-    for (most, accelerated) in [(MAX_ACCELERATED, true), (MAX_PLAIN, false)] {
-        let mut low = once.clone();
-        let mut anderson = Anderson::new();
-        let mut changes: Vec<f32> = Vec::new();
-        for iteration in 0..most {
-            let next = scatter_once_more(&low, iterations)?;
-            iterations += 1;
-            let change = anderson.step(&mut low, next, accelerated && iteration >= 1);
-            changes.push(change);
-            // What is left to come of plain iterations is a geometric series.
-            let rate = if accelerated { 0.0 } else { rate(&changes) };
-            let left = change * (rate / (1.0 - rate)).max(1.0);
-            nearest = nearest.min(left);
-            if left < convergence {
-                return Ok(low);
-            }
-            let in_vain = rate > 0.0 && left * rate.powi((most - iteration) as i32) > 2.0 * convergence;
-            if change.is_nan() || change > HOPELESS || (iteration >= PATIENCE && in_vain) {
-                break;
-            }
-        }
-    }
-    Err(Error::unsolved(format!(
-        "after {iterations} iterations the orders of scattering that are still missing would change it by {:.2} %",
-        100.0 * nearest
-    )))
-}
-
-/// How much smaller each of the latest changes is than the one before, below 1.
-fn rate(changes: &[f32]) -> f32 {
-    let last = changes.len() - 1;
-    let before = last.saturating_sub(PATIENCE).max(last / 2);
-    if last == before {
-        return 0.0;
-    }
-    (changes[last] / changes[before]).powf(1.0 / (last - before) as f32).clamp(0.0, 0.995)
 }
 
 /// The part of the progress that one application of the operator makes.
@@ -236,8 +181,12 @@ fn collect(
     let stokes = stokes(shape);
     let width = azimuths.len() * stokes;
     let mut field = Field::dark(target.grid, shape);
-    let (done, levels) = (AtomicUsize::new(0), target.grid.altitudes.len());
-    let report = |done: usize| (stage.progress)(stage.from + (stage.to - stage.from) * done as f64 / levels as f64);
+    let (done, told, levels) = (AtomicUsize::new(0), AtomicUsize::new(0), target.grid.altitudes.len());
+    let report = |done: usize| {
+        // Another thread may have told more by now: progress never goes back.
+        let done = told.fetch_max(done, Ordering::Relaxed).max(done);
+        (stage.progress)(stage.from + (stage.to - stage.from) * done as f64 / levels as f64)
+    };
     let at_ground = field
         .values
         .par_chunks_exact_mut(zeniths * shape.count())

@@ -6,7 +6,7 @@ use super::kept_refraction::refraction;
 use super::night::{NightOptions, When, moon};
 use crate::celestial::{EclipsedSunlight, MoonDisc};
 use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SolarEclipse, SunModel, bodies, sun_at};
-use crate::error::{Result, check_range};
+use crate::error::{Result, check_finite, check_range};
 use crate::light::{LightField, Observer};
 use crate::progress::Progress;
 use crate::spectrum::{ColorSpace, Gamut};
@@ -156,7 +156,7 @@ impl Sky {
         progress: &Progress,
     ) -> Result<[f64; 3]> {
         let xyz = sum_of_products(&self.direct_transmittance(self.field(progress)?), &self.xyz_weights()?);
-        Ok(color_space.from_xyz_within(xyz.map(|v| v * scale.factor()), gamut))
+        lamp(xyz, scale, color_space, gamut)
     }
 
     /// Irradiance by the Moon's disc through the air on a surface that faces it, as [`Self::sun_irradiance_rgb`]; nothing if the night is never shown, the Moon is below the horizon
@@ -174,7 +174,7 @@ impl Sky {
         let field = self.field(progress)?;
         let seen = self.bodies.as_ref().filter(|_| self.night.when != When::Never);
         let disc = seen.map(|bodies| self.moon_disc(field, bodies)).transpose()?.flatten();
-        Ok(disc.map_or([0.0; 3], |disc| color_space.from_xyz_within(disc.irradiance.map(|v| v * scale.factor()), gamut)))
+        disc.map_or(Ok([0.0; 3]), |disc| lamp(disc.irradiance, scale, color_space, gamut))
     }
 
     /// The Moon outside the air.
@@ -291,6 +291,12 @@ impl Sky {
         let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
         Ok(sum_of_products(&transmittance, &self.xyz_weights()?))
     }
+}
+
+/// A lamp's light of the colour `xyz` as RGB: checked first, because what the gamut does to a colour may hide that it is none.
+fn lamp(xyz: [f64; 3], scale: Scale, color_space: ColorSpace, gamut: Gamut) -> Result<[f64; 3]> {
+    check_finite("the irradiance by the disc", &xyz)?;
+    Ok(color_space.from_xyz_within(xyz.map(|v| v * scale.factor()), gamut))
 }
 
 fn sum_of_products(values: &[f64], weights: &[[f64; 3]]) -> [f64; 3] {

@@ -116,11 +116,13 @@ impl Sky {
         let transmittance = self.direct_transmittance(field);
         let direct_normal = self.at_wavelengths(&transmittance, wavelengths_nm, &sunlight);
         let diffuse = self.diffuse_horizontal(field, Nodes::FEW, progress)?;
-        let in_the_air = self.sunlight_in_the_air(wavelengths_nm);
+        let diffuse_horizontal = self.at_wavelengths(&diffuse, wavelengths_nm, &self.sunlight_in_the_air(wavelengths_nm));
+        check_finite("the irradiance by the Sun", &direct_normal)?;
+        check_finite("the irradiance by the sky", &diffuse_horizontal)?;
         Ok(Irradiance {
             direct_horizontal: direct_normal.iter().map(|e| e * self.disc_cosine()).collect(),
             direct_normal,
-            diffuse_horizontal: self.at_wavelengths(&diffuse, wavelengths_nm, &in_the_air),
+            diffuse_horizontal,
         })
     }
 
@@ -152,6 +154,10 @@ impl Sky {
         let moon_horizontal_lx = by_the_moon(|disc| disc.direction.z.max(0.0));
         let diffuse_horizontal_lx =
             LUMINOUS_EFFICACY * (by_sunlight + horizontal_irradiance(&night, Nodes::FEW, 0.0, |_| 1.0)[1]);
+        check_finite(
+            "the illuminance",
+            &[direct_normal_lx, direct_horizontal_lx, moon_normal_lx, moon_horizontal_lx, diffuse_horizontal_lx],
+        )?;
         Ok(Illuminance {
             direct_normal_lx,
             direct_horizontal_lx,

@@ -211,6 +211,25 @@ fn colours_of_sun_and_moon_are_in_their_space_however_low_they_stand() {
     assert!(outside >= 5, "the test has colours outside Rec. 709");
 }
 
+/// What a gamut makes of a colour that is not finite looks sound.
+#[test]
+fn light_that_is_not_finite_is_an_error_before_its_colour_is_changed() {
+    let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
+    let silent = Progress::silent();
+    for distance_au in [0.0, f64::NAN] {
+        let mut sky = sky(&atmosphere, 30.0, 0.0);
+        sky.sun.distance_au = distance_au;
+        for gamut in [Gamut::Keep, Gamut::Clip, Gamut::Desaturate] {
+            let lamp = sky.sun_irradiance_rgb(Scale::Luminance, ColorSpace::LinRec709, gamut, &silent);
+            assert!(matches!(lamp, Err(Error::Data { .. })), "{distance_au} {gamut:?}: {lamp:?}");
+        }
+        assert!(matches!(sky.illuminance(&silent), Err(Error::Data { .. })), "{distance_au}");
+        assert!(matches!(sky.irradiance(&[550.0], &silent), Err(Error::Data { .. })), "{distance_au}");
+    }
+    let lamp = lamp([1.0, f64::NAN, 1.0], Scale::Luminance, ColorSpace::LinRec709, Gamut::Clip);
+    assert!(matches!(lamp, Err(Error::Data { .. })), "{lamp:?}");
+}
+
 /// By the colours of a dome, and by spectra that are gathered in each of very many directions.
 #[test]
 fn the_illuminance_of_the_sky_is_the_integral_of_its_spectra() {
