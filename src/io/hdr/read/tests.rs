@@ -1,6 +1,7 @@
 //! Pictures as other programs write them, made here byte by byte, damaged ones, and hostile ones.
 
 use super::*;
+use crate::io::limits::ALL_MEGAPIXELS;
 use crate::spectrum::ColorSpace;
 use proptest::prelude::*;
 
