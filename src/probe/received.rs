@@ -38,13 +38,19 @@ pub(super) fn irradiances(probe: &Probe, normals: &[DVec3]) -> Vec<Rgb> {
     normals
         .chunks(PLANES)
         .flat_map(|normals| {
-            let normals: Vec<DVec3> = normals.iter().map(|normal| normal.normalize_or_zero()).collect();
+            let normals: Vec<DVec3> = normals.iter().map(|&normal| unit_or_zero(normal)).collect();
             match &grid {
                 Grid::LatLong(image) => on_circles(probe, image, &normals),
                 Grid::Fisheye(image) => on_disc(probe, image, &normals),
             }
         })
         .collect()
+}
+
+/// Squares of components as long or as short as numbers go are not numbers any more: the largest comes to 1 first.
+fn unit_or_zero(normal: DVec3) -> DVec3 {
+    let largest = normal.abs().max_element();
+    if largest > 0.0 { (normal / largest).normalize_or_zero() } else { DVec3::ZERO }
 }
 
 /// Sums `of_row` over the rows, in pieces.
@@ -330,6 +336,18 @@ mod tests {
                         );
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn the_length_of_a_normal_does_not_count() {
+        for projection in [Projection::LatLong, Projection::Fisheye] {
+            let probe = probe(ProbeSettings { width: 64, projection, ..Default::default() });
+            let expected = probe.irradiance(DVec3::new(1.0, 0.0, 1.0));
+            assert!(expected[0] > 0.0);
+            for length in [1e-320, 1e-162, 1e-3, 1e160, 1e200, 1e308] {
+                assert_eq!(probe.irradiance(DVec3::new(length, 0.0, length)), expected, "{projection:?} {length}");
             }
         }
     }

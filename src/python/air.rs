@@ -2,7 +2,7 @@
 
 use super::arrays;
 use super::errors::InputError;
-use super::work;
+use super::{fork, work};
 use crate::atmosphere::{self, AirParameters, Ground, OpticalProfile, PhaseTable};
 use crate::quality::Quality;
 use crate::sky;
@@ -100,6 +100,7 @@ impl Atmosphere {
         wavelengths_nm: Option<&Bound<'_, PyAny>>,
         cache: bool,
     ) -> PyResult<Self> {
+        fork::check()?;
         let air = AirParameters {
             preset: preset.parse()?,
             aerosol: aerosol.map(str::parse).transpose()?,
@@ -169,6 +170,7 @@ impl Atmosphere {
         polarisation: bool,
         cache: bool,
     ) -> PyResult<Self> {
+        fork::check()?;
         let altitudes_km = arrays::vector("altitudes_km", altitudes_km)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let (rows, columns) = (altitudes_km.len(), wavelengths_nm.len());

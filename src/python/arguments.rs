@@ -89,7 +89,7 @@ pub fn unit_vectors(directions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
 pub fn vectors(parameter: &str, given: &Bound<'_, PyAny>) -> PyResult<(Vec<DVec3>, bool)> {
     let (triples, alone) = arrays::triples_or_one(parameter, given)?;
     let vectors: Vec<DVec3> = triples.into_iter().map(DVec3::from).collect();
-    match vectors.iter().position(|vector| !vector.is_finite() || vector.length() <= 0.0) {
+    match vectors.iter().position(|vector| !vector.is_finite() || *vector == DVec3::ZERO) {
         None => Ok((vectors, alone)),
         Some(index) => {
             let DVec3 { x, y, z } = vectors[index];

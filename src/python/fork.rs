@@ -45,6 +45,14 @@ impl AtWork {
     }
 }
 
+/// Refuses short work with the interpreter held in a child that would wait for ever: tables that are made at first use may be half made in it.
+///
+/// # Errors
+/// As [`AtWork::begin`].
+pub fn check() -> PyResult<()> {
+    AtWork::begin().map(drop)
+}
+
 impl Drop for AtWork {
     fn drop(&mut self) {
         AT_WORK.fetch_sub(1, Ordering::SeqCst);

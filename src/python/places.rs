@@ -1,6 +1,7 @@
 //! `skyprobe.places`: names, coordinates, elevation, zones.
 
 use super::results::datetime;
+use super::{fork, work};
 use crate::places::{self, CoordinateStyle, Coordinates, NamedPlace};
 use crate::time::{self, Occurrence, ZoneChoice};
 use pyo3::prelude::*;
@@ -318,6 +319,7 @@ impl TimeFields {
 ///     The time, at most 100 bytes.
 #[pyfunction]
 pub fn parse_time(text: &str) -> PyResult<TimeFields> {
+    fork::check()?;
     Ok(TimeFields { inner: time::TimeFields::parse(text)? })
 }
 
@@ -336,9 +338,10 @@ pub fn parse_time(text: &str) -> PyResult<TimeFields> {
 /// More than 200 bytes, 16 words or 6 commas find nothing.
 #[pyfunction]
 #[pyo3(signature = (text, limit = 10))]
-pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
+pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> PyResult<Vec<Place>> {
     // The first question unpacks the gazetteer: a host may ask it in a thread of its own.
-    py.detach(|| places::search(text, limit)).into_iter().map(|inner| Place { inner }).collect()
+    let found = work::apart(py, || Ok(places::search(text, limit)))?;
+    Ok(found.into_iter().map(|inner| Place { inner }).collect())
 }
 
 /// Places whose names are spelled nearly as `text`: what may have been meant where the search finds nothing. "Stockhlom" suggests Stockholm.
@@ -353,8 +356,9 @@ pub fn search_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
 ///     How many places at most.
 #[pyfunction]
 #[pyo3(signature = (text, limit = 5))]
-pub fn suggest_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
-    py.detach(|| places::suggest(text, limit)).into_iter().map(|inner| Place { inner }).collect()
+pub fn suggest_places(py: Python<'_>, text: &str, limit: usize) -> PyResult<Vec<Place>> {
+    let found = work::apart(py, || Ok(places::suggest(text, limit)))?;
+    Ok(found.into_iter().map(|inner| Place { inner }).collect())
 }
 
 /// The town or observatory nearest to coordinates.
@@ -367,6 +371,7 @@ pub fn suggest_places(py: Python<'_>, text: &str, limit: usize) -> Vec<Place> {
 ///     Longitude, -180 to 180. [degrees]
 #[pyfunction]
 pub fn nearest_place(latitude: f64, longitude: f64) -> PyResult<NearestPlace> {
+    fork::check()?;
     Ok(NearestPlace { inner: places::nearest(latitude, longitude)? })
 }
 
@@ -380,6 +385,7 @@ pub fn nearest_place(latitude: f64, longitude: f64) -> PyResult<NearestPlace> {
 ///     Such as "Lund, Sweden", "55.71, 13.19" or a link to a map.
 #[pyfunction]
 pub fn locate_place(text: &str) -> PyResult<Location> {
+    fork::check()?;
     Ok(Location { inner: places::locate(text)? })
 }
 
@@ -424,6 +430,7 @@ pub fn format_coordinates(latitude: f64, longitude: f64, style: &str) -> PyResul
 ///     Longitude, -180 to 180. [degrees]
 #[pyfunction]
 pub fn elevation_m(latitude: f64, longitude: f64) -> PyResult<f64> {
+    fork::check()?;
     Ok(places::elevation_m(latitude, longitude)?)
 }
 
@@ -437,6 +444,7 @@ pub fn elevation_m(latitude: f64, longitude: f64) -> PyResult<f64> {
 ///     Longitude, -180 to 180. [degrees]
 #[pyfunction]
 pub fn zone_of_place(latitude: f64, longitude: f64) -> PyResult<&'static str> {
+    fork::check()?;
     Ok(time::zone_of_place(latitude, longitude)?)
 }
 
@@ -455,6 +463,7 @@ pub fn zone_of_place(latitude: f64, longitude: f64) -> PyResult<&'static str> {
 #[pyfunction]
 #[pyo3(signature = (time, latitude, longitude, zone = None))]
 pub fn civil_time(time: &str, latitude: f64, longitude: f64, zone: Option<&str>) -> PyResult<CivilTime> {
+    fork::check()?;
     Coordinates::new(latitude, longitude)?;
     let choice = zone.map_or(ZoneChoice::OfPlace { latitude_deg: latitude, longitude_deg: longitude }, ZoneChoice::Named);
     Ok(CivilTime { inner: time::CivilTime::parse(time, choice)? })

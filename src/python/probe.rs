@@ -169,7 +169,7 @@ impl Probe {
     }
 
     /// Irradiance of planes: the integral of pixels times cosine, in the probe's units times sr. One plane gives a tuple of three, planes of shape (N, 3) an
-    /// array of that shape: a thousand cost little more than one.
+    /// array of that shape. A thousand cost some 40 times what one costs (latlong), or 4 times (fisheye).
     ///
     /// Parameters
     /// ----------

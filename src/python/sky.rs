@@ -9,7 +9,7 @@ use super::filter::PolarisingFilter;
 use super::night::Night;
 use super::probe::{Probe, read_half};
 use super::results::{Illuminance, Irradiance, SunEvents, datetime};
-use super::work;
+use super::{fork, work};
 use crate::ephemeris::{self, Place, SunModel, next_moon_phases};
 use crate::error::check_range;
 use crate::io::config::time_at;
@@ -76,6 +76,7 @@ impl Sky {
         model: &str,
         night: Option<PyRef<'_, Night>>,
     ) -> PyResult<Self> {
+        fork::check()?;
         let place = Place::new(latitude, longitude, elevation_m)?;
         let time = time_at(&place, &time_text(time)?, zone)?;
         let (sun_model, model) = (sun_model.parse()?, model.parse()?);
@@ -111,6 +112,7 @@ impl Sky {
         elevation_m: f64,
         model: &str,
     ) -> PyResult<Self> {
+        fork::check()?;
         let model = model.parse()?;
         let inner = sky::Sky::with_sun(altitude_deg, azimuth_deg, elevation_m, atmosphere.get().inner.clone())?;
         Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model: SunModel::default(), model })
@@ -360,7 +362,7 @@ impl Sky {
 
     /// Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr.
     ///
-    /// ``gamut`` says what happens to a colour outside the space, as in ``render``: a Sun below 4 degrees is redder than Rec. 709. A lamp with this colour belongs where the disc is
+    /// ``gamut`` says what happens to a colour outside the space, as in ``render``: a Sun below some 2.5 degrees (clear air; higher in haze) is redder than Rec. 709. A lamp with this colour belongs where the disc is
     /// seen, at ``sun.apparent_altitude_deg``.
     #[pyo3(signature = (*, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", progress = None))]
     fn sun_irradiance_rgb(
