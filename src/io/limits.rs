@@ -2,6 +2,8 @@
 
 use crate::error::{Error, Result, check_range};
 use crate::post::picture::MAX_SIDE;
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 /// Most pixels of any picture [millions]: [`MAX_SIDE`] squared.
@@ -71,6 +73,18 @@ impl PictureLimits {
         }
         Ok(pixels)
     }
+}
+
+/// The plain file `path`, to read from: a pipe could keep the reader waiting for ever.
+///
+/// # Errors
+/// [`Error::File`].
+pub(super) fn open_plain(path: &Path) -> Result<BufReader<File>> {
+    let failed = |error: std::io::Error| Error::file(path, error);
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(Error::file(path, "no plain file"));
+    }
+    Ok(BufReader::with_capacity(1 << 18, File::open(path).map_err(failed)?))
 }
 
 /// `count` zeros, or an error where the memory for them is not to be had. They take room only as they are written to.

@@ -9,7 +9,7 @@
 //! | rows, field of view | the caller; `skyprobe.rows`, `skyprobe.field_of_view_deg`; centre, and 39.6 degrees, Blender's first camera |
 
 use super::{PictureLimits, exr, hdr};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, quoted};
 use crate::post::picture::{DEFAULT_FIELD_OF_VIEW_DEG, PictureProjection, WHITE_LUMINANCES};
 use crate::post::{Picture, View};
 use crate::probe::{Extent, Rows};
@@ -87,8 +87,8 @@ pub fn read_hdr_bytes(bytes: &[u8], hints: &PictureHints) -> Result<Picture> {
 /// What a file holds, with its meaning.
 fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
     let raw = map_of_directions(path, raw, hints)?;
-    let view = view(&raw.fields, hints)?;
     let mut notes = raw.notes;
+    let view = view(&raw.fields, hints, &mut notes);
     let known = hints.white_luminance.or_else(|| white_luminance(&raw.fields, &mut notes));
     let mut pixels = raw.pixels;
     let color_space = match (hints.color_space, raw.chromaticities) {
@@ -100,12 +100,12 @@ fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
         }),
     };
     let luminance = known.unwrap_or(Scale::default().white_luminance());
-    let turn_deg = raw.fields.get("skyprobe.turn_deg").map_or(Ok(0.0), |text| number("skyprobe.turn_deg", text))?;
+    let turn_deg = said(&raw.fields, "turn_deg", &mut notes, finite).unwrap_or(0.0);
     let picture = Picture::new(raw.width, raw.height, pixels, color_space, luminance, view)?;
     Ok(Picture {
         white_luminance_assumed: known.is_none(),
         notes,
-        turn_deg: if turn_deg.is_finite() { turn_deg } else { 0.0 },
+        turn_deg,
         ..picture
     })
 }
@@ -131,27 +131,35 @@ fn map_of_directions(path: &Path, mut raw: Raw, hints: &PictureHints) -> Result<
     Ok(raw)
 }
 
-fn view(fields: &BTreeMap<String, String>, hints: &PictureHints) -> Result<View> {
-    let field = |name: &str| fields.get(&format!("skyprobe.{name}"));
-    let projection = match (hints.projection, field("projection")) {
-        (Some(projection), _) => projection,
-        (None, Some(name)) => name.parse()?,
-        (None, None) => PictureProjection::Perspective,
-    };
-    let rows = match (hints.rows, field("rows")) {
-        (Some(rows), _) => rows,
-        (None, Some(name)) => name.parse()?,
-        (None, None) => Rows::Centre,
-    };
-    let of_file = match (field("field_of_view_deg"), field("extent").map(|name| name.parse::<Extent>()).transpose()?) {
-        (Some(text), _) => Some(number("skyprobe.field_of_view_deg", text)?),
-        (None, Some(extent)) if projection == PictureProjection::Fisheye => {
-            Some(if extent == Extent::Full { 360.0 } else { 180.0 })
-        }
-        _ => None,
-    };
-    let default = if projection == PictureProjection::Fisheye { 180.0 } else { DEFAULT_FIELD_OF_VIEW_DEG };
-    Ok(projection.view(rows, hints.field_of_view_deg.or(of_file).unwrap_or(default)))
+/// What the header says in our own field `name`, as `read` understands it; what it does not understand is left aside with a note.
+fn said<T>(fields: &BTreeMap<String, String>, name: &str, notes: &mut Vec<String>, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+    let name = format!("skyprobe.{name}");
+    let text = fields.get(&name)?;
+    let found = read(text);
+    if found.is_none() {
+        notes.push(format!("{name}={}: not understood, left aside", quoted(text)));
+    }
+    found
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+fn view(fields: &BTreeMap<String, String>, hints: &PictureHints, notes: &mut Vec<String>) -> View {
+    let of_file = said(fields, "projection", notes, |name| name.parse().ok());
+    let projection = hints.projection.or(of_file).unwrap_or(PictureProjection::Perspective);
+    let of_file = said(fields, "rows", notes, |name| name.parse().ok());
+    let rows = hints.rows.or(of_file).unwrap_or(Rows::Centre);
+    let is_fisheye = projection == PictureProjection::Fisheye;
+    let extent = said(fields, "extent", notes, |name| name.parse::<Extent>().ok()).filter(|_| is_fisheye);
+    // Of which fields of view there are pictures, the picture says.
+    let of_file = said(fields, "field_of_view_deg", notes, |text| {
+        finite(text).filter(|angle| (1e-3..=if is_fisheye { 360.0 } else { 179.0 }).contains(angle))
+    });
+    let of_file = of_file.or(extent.map(|extent| if extent == Extent::Full { 360.0 } else { 180.0 }));
+    let default = if is_fisheye { 180.0 } else { DEFAULT_FIELD_OF_VIEW_DEG };
+    projection.view(rows, hints.field_of_view_deg.or(of_file).unwrap_or(default))
 }
 
 /// The luminance of 1.0 that the header says [cd m-2]; what cannot be one counts as not said, with a note.
@@ -163,15 +171,11 @@ fn white_luminance(fields: &BTreeMap<String, String>, notes: &mut Vec<String>) -
     for name in ["skyprobe.white_luminance", "whiteLuminance", "skyprobe.scale"] {
         match (said(name), fields.get(name)) {
             (Some(luminance), _) => return Some(luminance),
-            (None, Some(text)) => notes.push(format!("{name}={text}: says no luminance, left aside")),
+            (None, Some(text)) => notes.push(format!("{name}={}: says no luminance, left aside", quoted(text))),
             (None, None) => {}
         }
     }
     None
-}
-
-fn number(name: &str, text: &str) -> Result<f64> {
-    text.trim().parse().map_err(|_| Error::data(format!("the header says {name} = {text:?}, which is no number")))
 }
 
 /// From the space of `primaries` to Rec. 709.

@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 const MAGIC: &[u8; 8] = b"SKYPLAC1";
 
 /// Names of countries that people use beside the ones in the gazetteer, folded, and their codes.
-pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 15] = [
+pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 33] = [
     ("usa", "us"),
     ("uk", "gb"),
     ("great britain", "gb"),
@@ -29,6 +29,24 @@ pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 15] = [
     ("swaziland", "sz"),
     ("macedonia", "mk"),
     ("east timor", "tl"),
+    ("congo", "cg"),
+    ("congo brazzaville", "cg"),
+    ("dr congo", "cd"),
+    ("drc", "cd"),
+    ("congo kinshasa", "cd"),
+    ("korea", "kr"),
+    ("republic of korea", "kr"),
+    ("palestine", "ps"),
+    ("faroe", "fo"),
+    ("faroes", "fo"),
+    ("cote d ivoire", "ci"),
+    ("cote d'ivoire", "ci"),
+    ("cote divoire", "ci"),
+    ("russian federation", "ru"),
+    ("bosnia", "ba"),
+    ("trinidad", "tt"),
+    ("vatican", "va"),
+    ("falklands", "fk"),
 ];
 
 /// What kind of place it is.

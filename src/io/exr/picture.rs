@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::io::read::Raw;
 use crate::io::{PictureLimits, limits};
 use crate::spectrum::{Chromaticities, ColorSpace};
-use std::io::{BufReader, Read, Seek};
+use std::io::{Read, Seek};
 use std::path::Path;
 
 /// A large picture ([`LARGE`]) has at least this part of its pixels in the file.
@@ -30,10 +30,9 @@ pub enum Pixels {
 /// Reads the picture of an EXR file, of the channels that [`channels`] tells of. Maps of directions (`envmap`) are all of the data, as OpenEXR has it.
 ///
 /// # Errors
-/// [`Error::File`] for a file that is damaged, cut short, or of a kind that is not read; [`Error::Data`] if it has no such channels; [`Error::Input`] if it is over the limits.
-pub fn read_rgb(path: &Path, limits: &PictureLimits, pixels: Pixels) -> Result<Raw> {
-    let file = std::fs::File::open(path).map_err(|error| Error::file(path, error))?;
-    parse_rgb(path, BufReader::new(file), limits, pixels)
+/// [`Error::File`] for a file that is damaged, cut short, or of a kind that is not read; [`Error::Data`] if it has no such channels; [`Error::Input`] if it is over the bounds.
+pub fn read_rgb(path: &Path, bounds: &PictureLimits, pixels: Pixels) -> Result<Raw> {
+    parse_rgb(path, limits::open_plain(path)?, bounds, pixels)
 }
 
 /// The same of the bytes of `reader`, which messages call `path`.

@@ -5,11 +5,10 @@ use super::fields::{Header, Parsed, line};
 use super::rows::{least_bytes, read_row};
 use crate::error::{Error, Result};
 use crate::io::PictureLimits;
-use crate::io::limits::zeros;
+use crate::io::limits::{open_plain, zeros};
 use crate::io::read::Raw;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Seek, SeekFrom};
+use std::io::{BufRead, Cursor, Seek, SeekFrom};
 use std::path::Path;
 
 /// Longest line of the size [bytes].
@@ -20,7 +19,7 @@ const LONGEST_SIZE: usize = 1 << 10;
 /// # Errors
 /// [`Error::Input`] for `limits` that it exceeds; [`Error::File`] for a file that is none, is damaged or cut short.
 pub fn read_rgb(path: &Path, limits: &PictureLimits) -> Result<Raw> {
-    parse(&mut open(path)?, path, limits)
+    parse(&mut open_plain(path)?, path, limits)
 }
 
 /// The same of `bytes`, which messages call `path`.
@@ -41,14 +40,6 @@ pub fn header_fields(mut bytes: &[u8]) -> Parsed<BTreeMap<String, String>> {
 }
 
 /// Files that have an end: the rows are read twice.
-fn open(path: &Path) -> Result<BufReader<File>> {
-    let failed = |error: std::io::Error| Error::file(path, error);
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(Error::file(path, "no plain file"));
-    }
-    Ok(BufReader::with_capacity(1 << 18, File::open(path).map_err(failed)?))
-}
-
 fn refusal(path: &Path, reason: &str) -> Error {
     Error::file(path, format!("no Radiance picture that can be read: {reason}"))
 }
@@ -103,7 +94,7 @@ impl Layout {
     /// The number of pixels, if `bytes` can be so many and they are within `limits`.
     fn check(&self, path: &Path, limits: &PictureLimits, bytes: u64) -> Result<usize> {
         let (width, height) = (self.width, self.height);
-        let pixels = limits.check(path, width as u64, height as u64)?;
+        limits.check(path, width as u64, height as u64)?;
         if bytes < self.count as u64 * least_bytes(self.length) {
             return Err(refusal(path, &format!("the file ends early: {width} x {height} pixels in {bytes} bytes")));
         }
