@@ -501,7 +501,26 @@ def during():
     go_on.set()
     thread.join()
 
-{"after": main, "during": during}[sys.argv[1]]()
+def unpacking():
+    # A child made while another thread of its parent asks the gazetteer its first question, which unpacks it.
+    fork = multiprocessing.get_context("fork")
+    thread = threading.Thread(target=lambda: sp.places.search("Lund"))
+    thread.start()
+    time.sleep(0.02)
+    def child(connection):
+        try:
+            connection.send(sp.places.search("Lund")[0].name)
+        except RuntimeError as error:
+            connection.send(str(error))
+    here, there = fork.Pipe()
+    process = fork.Process(target=child, args=(there,))
+    process.start()
+    assert here.poll(60.0), "the child waits"
+    print(here.recv())
+    process.join()
+    thread.join()
+
+{"after": main, "during": during, "unpacking": unpacking}[sys.argv[1]]()
 """
 
 
@@ -522,6 +541,12 @@ def test_children_of_a_process_that_has_worked_work_and_see_the_same() -> None:
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="a system without fork")
 def test_a_child_of_a_process_at_work_says_so_at_once() -> None:
     assert "forked while another thread of its parent was at work" in forked("during")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="a system without fork")
+def test_a_child_made_while_the_gazetteer_is_unpacked_does_not_wait_for_ever() -> None:
+    told = forked("unpacking")
+    assert told == "Lund\n" or "forked while another thread of its parent was at work" in told
 
 
 def test_air_too_thick_for_the_solver_is_told_as_such() -> None:

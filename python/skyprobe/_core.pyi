@@ -3,7 +3,7 @@
 import datetime
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Literal, TypeAlias, final
+from typing import Literal, TypeAlias, final, overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -1104,6 +1104,11 @@ class Probe:
             Called with stage and fraction; returning False raises Cancelled, and there is no file.
         """
 
+    @overload
+    def irradiance(self, normal: None = None) -> tuple[float, float, float]: ...
+    @overload
+    def irradiance(self, normal: tuple[float, float, float] | list[float]) -> tuple[float, float, float]: ...
+    @overload
     def irradiance(self, normal: ArrayLike | None = None) -> tuple[float, float, float] | NDArray[numpy.float64]:
         """Irradiance of planes: the integral of pixels times cosine, in the probe's units times sr. One plane gives a tuple of three, planes of shape (N, 3) an
         array of that shape. A thousand cost some 40 times what one costs (latlong), or 4 times (fisheye).

@@ -68,7 +68,8 @@ impl PictureLimits {
         let pixels = self.check(path, width, height)?;
         let least = ((PART_OF_ONE_COLOUR * pixels as u64) as f64 / 1e6).min(ALL_MEGAPIXELS);
         if pixels as u64 / PIXELS_OF_A_BYTE > bytes && self.max_megapixels < least {
-            let allowed = format!("at least {least} to read {}, which makes {width} x {height} pixels of {bytes} bytes", path.display());
+            let allowed =
+                format!("at least {least} to read {}, which makes {width} x {height} pixels of {bytes} bytes", path.display());
             return Err(Error::input("max_megapixels", self.max_megapixels, allowed));
         }
         Ok(pixels)

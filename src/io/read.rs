@@ -102,12 +102,7 @@ fn picture(path: &Path, raw: Raw, hints: &PictureHints) -> Result<Picture> {
     let luminance = known.unwrap_or(Scale::default().white_luminance());
     let turn_deg = said(&raw.fields, "turn_deg", &mut notes, finite).unwrap_or(0.0);
     let picture = Picture::new(raw.width, raw.height, pixels, color_space, luminance, view)?;
-    Ok(Picture {
-        white_luminance_assumed: known.is_none(),
-        notes,
-        turn_deg,
-        ..picture
-    })
+    Ok(Picture { white_luminance_assumed: known.is_none(), notes, turn_deg, ..picture })
 }
 
 /// A picture with the standard attribute `envmap` as a latitude-longitude picture of ours, unless the caller knows it for another.
@@ -132,7 +127,12 @@ fn map_of_directions(path: &Path, mut raw: Raw, hints: &PictureHints) -> Result<
 }
 
 /// What the header says in our own field `name`, as `read` understands it; what it does not understand is left aside with a note.
-fn said<T>(fields: &BTreeMap<String, String>, name: &str, notes: &mut Vec<String>, read: impl Fn(&str) -> Option<T>) -> Option<T> {
+fn said<T>(
+    fields: &BTreeMap<String, String>,
+    name: &str,
+    notes: &mut Vec<String>,
+    read: impl Fn(&str) -> Option<T>,
+) -> Option<T> {
     let name = format!("skyprobe.{name}");
     let text = fields.get(&name)?;
     let found = read(text);

@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 const MAGIC: &[u8; 8] = b"SKYPLAC1";
 
 /// Names of countries that people use beside the ones in the gazetteer, folded, and their codes.
-pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 33] = [
+pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 32] = [
     ("usa", "us"),
     ("uk", "gb"),
     ("great britain", "gb"),
@@ -36,7 +36,6 @@ pub(super) const OTHER_COUNTRY_NAMES: [(&str, &str); 33] = [
     ("congo kinshasa", "cd"),
     ("korea", "kr"),
     ("republic of korea", "kr"),
-    ("palestine", "ps"),
     ("faroe", "fo"),
     ("faroes", "fo"),
     ("cote d ivoire", "ci"),

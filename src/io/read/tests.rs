@@ -288,3 +288,29 @@ fn a_turn_goes_from_file_to_file() {
         .unwrap();
     assert_eq!(read_picture(&plain, &PictureHints::default()).unwrap().turn_deg, 0.0);
 }
+
+#[test]
+fn a_field_of_ours_that_is_not_understood_does_not_refuse_the_picture() {
+    let file = |fields: &str| format!("#?RADIANCE\n{fields}\n-Y 1 +X 2\n").into_bytes();
+    let fields = "skyprobe.projection=mirrorball\nskyprobe.rows=9\nskyprobe.extent=most\nskyprobe.field_of_view_deg=1e9\nskyprobe.turn_deg=abc\n";
+    let bytes = [file(fields), vec![128, 64, 32, 129, 128, 64, 32, 129]].concat();
+    let picture = read_hdr_bytes(&bytes, &PictureHints::default()).unwrap();
+    assert_eq!(picture.view, PictureProjection::Perspective.view(Rows::Centre, DEFAULT_FIELD_OF_VIEW_DEG));
+    assert_eq!((picture.turn_deg, picture.notes.len()), (0.0, 5));
+    assert!(picture.notes.iter().all(|note| note.ends_with("not understood, left aside")), "{:?}", picture.notes);
+    // What the caller knows better still counts.
+    let hints = PictureHints { projection: Some(PictureProjection::Fisheye), ..Default::default() };
+    assert_eq!(read_hdr_bytes(&bytes, &hints).unwrap().view, PictureProjection::Fisheye.view(Rows::Centre, 180.0));
+}
+
+#[cfg(unix)]
+#[test]
+fn only_plain_files_are_read() {
+    for name in ["/dev/zero.exr", "/dev/zero.hdr"] {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join(Path::new(name).file_name().unwrap());
+        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+        let message = read_picture(&link, &PictureHints::default()).unwrap_err().to_string();
+        assert!(message.ends_with("no plain file"), "{message}");
+    }
+}
