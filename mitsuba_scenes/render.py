@@ -9,6 +9,7 @@ The header of lund.exr says how bright its numbers are and how wide it looks, so
 import argparse
 import glob
 import os
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -68,6 +69,13 @@ def arguments(given=None):
         if path is not None and not path.is_file():
             parser.error(f"{name} = {path}: must be a file")
     return options
+
+
+def check_files(options, outputs):
+    """Refuses, before any work, to write over what is read, over what is read-only, or twice to one file."""
+    import skyprobe as sp
+
+    sp.check_files([path for path in (options.probe, options.scene) if path is not None], outputs)
 
 
 def make_probe(options, path):
@@ -180,11 +188,15 @@ def render(mi, scene, spp):
 
 
 def write_whole(path, write):
-    """Calls `write` with a name beside `path`, and gives the file its own name when it is complete."""
-    with tempfile.TemporaryDirectory(dir=path.absolute().parent, prefix=f".{path.stem}.") as folder:
+    """Calls `write` with a name beside `path`, and gives the file its own name when it is complete; what it replaces passes on its mode."""
+    # Links stay links.
+    target = path.resolve()
+    with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{path.stem}.") as folder:
         part = Path(folder) / path.name
         write(part)
-        part.replace(path)
+        if target.exists():
+            shutil.copymode(target, part)
+        part.replace(target)
 
 
 def write_picture(mi, picture, told, path):
@@ -210,9 +222,10 @@ def to_look_at(mi, picture, exposure_ev):
 def main(given=None):
     options = arguments(given)
     try:
-        probe_path = options.probe
-        if probe_path is None:
-            probe_path = options.output.with_name(f"{options.output.stem}_probe.exr")
+        image = options.output.with_suffix(".png")
+        probe_path = options.probe or options.output.with_name(f"{options.output.stem}_probe.exr")
+        check_files(options, [options.output, image] + ([] if options.probe else [probe_path]))
+        if options.probe is None:
             make_probe(options, probe_path)
         mi = load_mitsuba(options.variant)
         header = header_of(mi, probe_path)
@@ -222,7 +235,6 @@ def main(given=None):
         told = describe(mi, scene, luminance)
         picture = render(mi, scene, options.spp)
         write_whole(options.output, lambda path: write_picture(mi, picture, told, path))
-        image = options.output.with_suffix(".png")
         write_whole(image, lambda path: to_look_at(mi, picture, options.exposure).write(str(path)))
     except (ValueError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)

@@ -109,6 +109,7 @@ fn what_is_told_is_not_written_over_a_file_of_the_command() {
     for (arguments, to) in [
         (vec!["info", "--config", "a.json", "--no-light"], "a.json"),
         (vec!["render", "--config", "a.json", "--dump-config"], "a.json"),
+        (vec!["info", "--config", "a.json", "--dump-config"], "a.json"),
         (vec!["render", "--config", "a.exr", "--dump-config"], "a.exr"),
         (vec!["render", "--config", "a.json", "-o", "b.exr"], "b.exr"),
         (vec!["render", "--config", "a.json", "-o", "b.exr"], "a.json"),
@@ -174,6 +175,67 @@ fn what_is_replaced_keeps_its_mode_and_what_is_read_only_stays() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {complaint}");
         assert!(complaint.contains(&format!("= {last}: must be a file that can be written (is read-only)")), "{complaint}");
         assert!(contents(folder.path()) == before && mode(last) == 0o444, "{arguments:?}");
+    }
+}
+
+#[test]
+fn manual_pages_are_written_all_or_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for (name, blocked) in
+        [("skyprobe.1", "is read-only"), ("skyprobe-tonemap.1", "is read-only"), ("skyprobe-info.1", "directory")]
+    {
+        if blocked == "directory" {
+            fs::create_dir(at(name)).unwrap();
+        } else {
+            fs::write(at(name), "old").unwrap();
+            let mut permissions = fs::metadata(at(name)).unwrap().permissions();
+            permissions.set_readonly(true);
+            fs::set_permissions(at(name), permissions).unwrap();
+        }
+        let output = tool(folder.path(), &["man", "--folder", "."]);
+        let complaint = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{name}: {complaint}");
+        assert!(complaint.contains(name) && complaint.contains(blocked), "{name}: {complaint}");
+        assert_eq!(files(folder.path()), [name]);
+        if blocked == "directory" {
+            fs::remove_dir(at(name)).unwrap();
+        } else {
+            assert_eq!(fs::read_to_string(at(name)).unwrap(), "old");
+            fs::remove_file(at(name)).unwrap();
+        }
+    }
+    fs::write(at("skyprobe.1"), "old").unwrap();
+    assert!(tool(folder.path(), &["man", "--folder", "."]).status.success());
+    let pages = ["completions", "glare", "info", "man", "places", "render", "tonemap"];
+    let mut names: Vec<String> = pages.iter().map(|name| format!("skyprobe-{name}.1")).collect();
+    names.push("skyprobe.1".to_owned());
+    assert_eq!(files(folder.path()), names);
+    assert!(names.iter().all(|name| fs::read_to_string(at(name)).unwrap().contains(".SH OPTIONS")));
+}
+
+/// Names of files, and what they say, are others': none of it is a command to the terminal.
+#[cfg(unix)]
+#[test]
+fn a_terminal_gets_no_commands_of_files() {
+    let folder = pictures();
+    let name = "\u{1b}]0;title\u{7}\u{9b}2J.hdr";
+    fs::copy(folder.path().join("a.hdr"), folder.path().join(name)).unwrap();
+    fs::write(folder.path().join("key.json"), "{\"\\u001b[31m\\u009b\": {\"a\": 1, \"a\": 2}}").unwrap();
+    fs::write(folder.path().join("unknown.json"), "{\"\\u001b[31m\\u009b\": 3}").unwrap();
+    fs::write(folder.path().join("word.json"), "{\"atmosphere\": {\"aerosol\": \"\\u001b[31m\\u009b\"}}").unwrap();
+    for (arguments, code) in [
+        (vec!["tonemap", name, name], 2),
+        (vec!["tonemap", "a.exr", name], 0),
+        (vec!["render", "--config", "\u{1b}[2J.json"], 2),
+        (vec!["info", "--config", "key.json"], 2),
+        (vec!["info", "--config", "unknown.json"], 2),
+        (vec!["info", "--config", "word.json"], 2),
+    ] {
+        let output = tool(folder.path(), &arguments);
+        let told = text(&output.stdout) + &text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{told:?}");
+        assert!(!told.is_empty() && !told.chars().any(|letter| letter.is_control() && letter != '\n'), "{told:?}");
     }
 }
 

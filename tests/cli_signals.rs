@@ -139,6 +139,53 @@ fn an_interrupted_sequence_leaves_whole_pictures_only() {
     assert!(left.iter().all(|name| image::open(film.join(name)).is_ok()), "{left:?}");
 }
 
+/// While a picture of a sequence is read, those before it are there and the sequence is not done: one signal ends it at once, two do not make it a success.
+#[test]
+fn a_sequence_that_is_interrupted_while_it_reads_is_not_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("film");
+    picture(&folder.path().join("0.hdr"), 64);
+    let read = fs::read(folder.path().join("0.hdr")).unwrap();
+    // Says no scale: what is assumed is told while it is read, and nobody listens.
+    let at = read.windows(2).position(|pair| pair == b"\n\n").unwrap();
+    let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe";
+    fs::write(folder.path().join("1.hdr"), [header, &read[at..]].concat()).unwrap();
+    fs::copy(folder.path().join("0.hdr"), folder.path().join("2.hdr")).unwrap();
+    for signals in [1, 2] {
+        let _ = fs::remove_dir_all(&film);
+        fs::create_dir(&film).unwrap();
+        let (unread, full) = std::io::pipe().unwrap();
+        let mut filler = full.try_clone().unwrap();
+        let filling = std::thread::spawn(move || while filler.write_all(&[b' '; 4096]).is_ok() {});
+        // Until it is full.
+        std::thread::sleep(Duration::from_millis(100));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_skyprobe"));
+        command.args(["tonemap", "0.hdr", "1.hdr", "2.hdr", "film"]).current_dir(folder.path());
+        let mut child = command.stdout(Stdio::null()).stderr(full).spawn().expect("the tool starts");
+        drop(command);
+        while files(&film) != ["0.png"] && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        // Until it wants to tell what it assumed.
+        std::thread::sleep(Duration::from_millis(500));
+        (0..signals).for_each(|_| {
+            signal(&child, "-INT");
+            std::thread::sleep(Duration::from_millis(50));
+        });
+        let begun = Instant::now();
+        while child.try_wait().unwrap().is_none() {
+            if begun.elapsed() > Duration::from_secs(20) {
+                signal(&child, "-KILL");
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{signals}");
+        assert_eq!(files(&film), ["0.png"], "{signals}");
+        drop(unread);
+        filling.join().unwrap();
+    }
+}
+
 #[test]
 fn a_second_signal_ends_at_once() {
     let folder = tempfile::tempdir().unwrap();

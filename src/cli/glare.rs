@@ -1,7 +1,7 @@
 //! `skyprobe glare`: what the eye makes of light that is brighter than any screen.
 
 use super::picture_options::{PictureOptions, repairs_in_words};
-use super::{say, terminal};
+use super::{files, say, terminal};
 use crate::error::{Error, Result};
 use crate::io::{Format, write_picture};
 use crate::post::View;
@@ -86,7 +86,8 @@ pub fn run(options: &Options) -> Result<()> {
     if Format::of(&options.output)? == Format::Png {
         return Err(Error::input("output", options.output.display(), "the name of a file that ends in .exr or .hdr"));
     }
-    let mut picture = options.picture.read(&options.input, &options.output)?;
+    files::check(&[("input", &options.input)], &[("output", &options.output)])?;
+    let mut picture = options.picture.read(&options.input)?;
     let report = terminal::with_progress(|progress| {
         let report = glare(&mut picture, &glare_options, progress)?;
         write_picture(&options.output, &picture, progress)?;

@@ -126,7 +126,7 @@ fn say(text: &str) -> Result<()> {
 /// Writes what was asked for, `text` and a line break, to the standard output.
 fn answer(text: &str) -> Result<()> {
     let mut out = std::io::stdout().lock();
-    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+    match writeln!(out, "{}", printable(text)).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Error::file("standard output", error)),
         _ => Ok(()),
     }
@@ -135,6 +135,12 @@ fn answer(text: &str) -> Result<()> {
 fn complain(message: &str) {
     let message = message.split(['\n', '\r']).map(str::trim).collect::<Vec<_>>().join(" ");
     let _ = writeln!(std::io::stderr(), "{}", OneLine(&message, usize::MAX));
+}
+
+/// The text without what a terminal takes for a command: names of files and texts in them are others'.
+fn printable(text: &str) -> String {
+    let shown = |letter: char| if letter.is_control() && !"\n\t".contains(letter) { '\u{fffd}' } else { letter };
+    text.chars().map(shown).collect()
 }
 
 /// What clap says over several lines, without the usage.

@@ -1,6 +1,6 @@
 //! Options of commands that finish a picture: what the file does not say of it.
 
-use super::{complain, files};
+use super::complain;
 use crate::error::Result;
 use crate::io::{PictureHints, PictureLimits, read_picture};
 use crate::post::{Picture, Repairs};
@@ -61,11 +61,9 @@ impl PictureOptions {
         })
     }
 
-    /// Reads `input`, after a check that `output` can be written to and is another file.
-    pub fn read(&self, input: &Path, output: &Path) -> Result<Picture> {
-        let hints = self.hints()?;
-        files::check(&[("input", input)], &[("output", output)])?;
-        let picture = read_picture(input, &hints)?;
+    /// Reads `input`, and tells what was assumed.
+    pub fn read(&self, input: &Path) -> Result<Picture> {
+        let picture = read_picture(input, &self.hints()?)?;
         self.tell(input, &picture);
         Ok(picture)
     }

@@ -303,7 +303,7 @@ pub fn run(options: &Options) -> Result<()> {
     if config.output.is_empty() && options.sample_map.is_none() {
         return Err(Error::input("output", "nothing", "given, such as -o sky.exr"));
     }
-    let outputs = each_once(&config.output).into_iter().map(|path| ("output", path.as_path()));
+    let outputs = config.output.iter().map(|path| ("output", path.as_path()));
     let sample_map = options.sample_map.iter().map(|path| ("sample_map", path.as_path()));
     files::check(inputs.as_slice(), &outputs.chain(sample_map).collect::<Vec<_>>())?;
     let is_exr = |path: &PathBuf| Format::of(path).is_ok_and(|format| format == Format::Exr);

@@ -1,10 +1,13 @@
 //! `skyprobe completions` and `skyprobe man`: what a shell and `man` want to know of this tool, made from its own options.
 
-use super::{Cli, answer};
+use super::{Cli, answer, files};
 use crate::error::{Error, Result};
+use crate::io::atomic::{Pending, commit};
+use crate::progress::Progress;
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// Options of `skyprobe completions`.
 #[derive(Args)]
@@ -38,7 +41,7 @@ pub fn man(options: &ManOptions) -> Result<()> {
         if !folder.is_dir() {
             return Err(Error::input("folder", folder.display(), "an existing folder"));
         }
-        return clap_mangen::generate_to(Cli::command(), folder).map_err(|error| Error::file(folder, error));
+        return write_pages(folder);
     }
     let mut tool = Cli::command();
     tool.build();
@@ -55,4 +58,18 @@ pub fn man(options: &ManOptions) -> Result<()> {
     let mut text = Vec::new();
     clap_mangen::Man::new(page).render(&mut text).map_err(|error| Error::file("standard output", error))?;
     answer(String::from_utf8_lossy(&text).trim_end())
+}
+
+/// Writes the pages of the tool and of all its commands into `folder`: all or none.
+fn write_pages(folder: &Path) -> Result<()> {
+    let mut tool = Cli::command().disable_help_subcommand(true);
+    tool.build();
+    let commands = std::iter::once(&tool).chain(tool.get_subcommands().filter(|command| !command.is_hide_set()));
+    let pages: Vec<_> = commands.map(|command| clap_mangen::Man::new(command.clone())).collect();
+    let paths: Vec<PathBuf> = pages.iter().map(|page| folder.join(page.get_filename())).collect();
+    files::check_texts(&paths.iter().map(|path| ("page", path.as_path())).collect::<Vec<_>>())?;
+    let written = pages.iter().zip(&paths).map(|(page, path)| {
+        Pending::written(path, |file| page.render(file as &mut dyn Write).map_err(|error| Error::file(path, error)))
+    });
+    commit(written.collect::<Result<Vec<_>>>()?, &Progress::silent())
 }

@@ -161,7 +161,8 @@ impl Options {
 /// Reads, maps, writes, and says what was done.
 pub fn run(options: &Options) -> Result<()> {
     let (settings, depth, pairs) = (options.settings()?, options.depth()?, options.pairs()?);
-    let sequence = pairs.len() > 1;
+    let count = pairs.len();
+    let sequence = count > 1;
     for (_, output) in &pairs {
         let format = Format::of(output)?;
         if options.compare && format != Format::Png {
@@ -175,8 +176,9 @@ pub fn run(options: &Options) -> Result<()> {
     let frame_seconds = options.frame_seconds.unwrap_or(1.0 / 24.0);
     crate::error::check_range("frame_seconds", frame_seconds, 0.0, 1e9, "s")?;
     let mut eye = Adaptation::new(options.light_seconds, options.dark_seconds)?;
-    for (input, output) in pairs {
-        let mut picture = options.picture.read(input, &output)?;
+    for (number, (input, output)) in pairs.into_iter().enumerate() {
+        terminal::begin_files(number + 1 < count);
+        let mut picture = options.picture.read(input)?;
         let repaired = repairs_in_words(picture.repair());
         let (width, height) = (picture.width, picture.height);
         let done = terminal::with_progress(|progress| {

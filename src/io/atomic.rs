@@ -22,9 +22,6 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// Whether files have got their names since [`begin`].
 static COMMITTED: AtomicBool = AtomicBool::new(false);
 
-/// How often a file is made anew that another process takes for abandoned: between its birth and its lock.
-const ATTEMPTS: usize = 16;
-
 /// Checks, before any work, that a file can be written at `path`.
 ///
 /// # Errors
@@ -116,9 +113,7 @@ pub(crate) fn commit(files: Vec<Pending>, progress: &Progress<'_>) -> Result<()>
     // Dropped before the entries, which need it.
     let _held = unfinished();
     for (path, target, temporary) in files {
-        // A second name keeps the file that is replaced until all is done.
-        let keep = |to: &Path| std::fs::hard_link(&target, to);
-        let kept = if several { leftovers::builder().make_in(folder_of(&target), keep).ok() } else { None };
+        let kept = if several { kept(&target) } else { None };
         let is_new = !target.exists();
         if let Err(failed) = temporary.persist(&target) {
             take_back(done);
@@ -130,6 +125,11 @@ pub(crate) fn commit(files: Vec<Pending>, progress: &Progress<'_>) -> Result<()>
     }
     COMMITTED.store(true, Ordering::SeqCst);
     Ok(())
+}
+
+/// A second name of `target`, if it is there, that keeps it until all is done.
+fn kept(target: &Path) -> Option<NamedTempFile<()>> {
+    leftovers::keeper().make_in(folder_of(target), |to| std::fs::hard_link(target, to)).ok()
 }
 
 fn take_back(done: Vec<(PathBuf, Option<NamedTempFile<()>>)>) {
@@ -216,7 +216,7 @@ fn temporary(path: &Path, folder: &Path, replaced: Option<&Metadata>) -> Result<
     // Elsewhere files inherit who may do what from their folder.
     #[cfg(not(unix))]
     let _ = replaced;
-    for _ in 0..ATTEMPTS {
+    for _ in 0..leftovers::ATTEMPTS {
         let mut known = unfinished();
         let file = builder.tempfile_in(folder).map_err(failed)?;
         known.push(file.path().to_path_buf());

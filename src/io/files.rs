@@ -6,7 +6,9 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 #[cfg(unix)]
 use std::fs::File;
+use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 use unicode_normalization::UnicodeNormalization;
 
 /// Stands for the standard input among what is read, and for the standard output among what is written.
@@ -17,10 +19,40 @@ pub const STANDARD: &str = "-";
 enum Identity {
     /// A file that is there, by the numbers of its volume and of itself.
     File([u64; 2]),
-    /// A file that is not there yet: the numbers of its folder, and its name.
-    Name([u64; 2], String),
+    /// A file that is not there yet.
+    Name(Name),
     /// Neither file nor folder is there.
     Path(PathBuf),
+}
+
+/// The name of a file that is not there yet, and its folder, with the numbers of that.
+#[derive(Clone, Debug)]
+struct Name {
+    folder: PathBuf,
+    numbers: [u64; 2],
+    name: String,
+}
+
+impl Name {
+    fn folded(&self) -> String {
+        self.name.nfc().collect::<String>().to_lowercase()
+    }
+}
+
+impl PartialEq for Name {
+    // The folder is asked only where its answer counts: that takes a file.
+    fn eq(&self, other: &Self) -> bool {
+        self.numbers == other.numbers
+            && (self.name == other.name || self.folded() == other.folded() && ignores_case(&self.folder))
+    }
+}
+
+impl Eq for Name {}
+
+impl Hash for Name {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.numbers, self.folded()).hash(state);
+    }
 }
 
 impl Identity {
@@ -31,9 +63,7 @@ impl Identity {
         let folder = folder_of(path);
         match (numbers(folder), path.file_name()) {
             (Some(numbers), Some(name)) => {
-                let name = name.to_string_lossy();
-                let folded = || name.nfc().collect::<String>().to_lowercase();
-                Self::Name(numbers, if ignores_case(folder) { folded() } else { name.to_string() })
+                Self::Name(Name { folder: folder.to_path_buf(), numbers, name: name.to_string_lossy().into_owned() })
             }
             _ => Self::Path(path.to_path_buf()),
         }
@@ -123,9 +153,15 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 
 /// Whether names that differ by case alone stand for one file there: a file is found under its name in capitals.
 fn ignores_case(folder: &Path) -> bool {
-    let Ok(file) = leftovers::builder().tempfile_in(folder) else { return false };
+    let Some(file) = trial(folder) else { return false };
     let capitals = file.path().file_name().map(|name| name.to_string_lossy().to_uppercase());
     capitals.is_some_and(|name| folder.join(name).symlink_metadata().is_ok())
+}
+
+/// A file to try names with, locked so that no other process takes it for abandoned.
+fn trial(folder: &Path) -> Option<NamedTempFile> {
+    let mut made = (0..leftovers::ATTEMPTS).map_while(|_| leftovers::builder().tempfile_in(folder).ok());
+    made.find(|file| leftovers::lock(file.as_file(), file.path()))
 }
 
 /// Whether two names stand for one file, however they are spelt: relative or absolute, through links of either kind, and in another case where the system
@@ -204,6 +240,27 @@ mod tests {
         let paths = [at("a.hdr"), at("b.hdr"), at("./a.hdr"), at("new.hdr"), at("inner/../new.hdr")];
         assert_eq!(each_once(&paths), [&paths[0], &paths[1], &paths[3]]);
         assert_eq!(std::fs::read_dir(at("inner")).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_trial_of_names_is_not_cleaned_by_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = trial(folder.path()).unwrap();
+        leftovers::remove_abandoned(folder.path());
+        assert!(file.path().exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_is_not_touched_to_tell_different_names_apart() {
+        let folder = tempfile::tempdir().unwrap();
+        let (a, b) = (folder.path().join("a.exr"), folder.path().join("b.exr"));
+        let then = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
+        File::open(folder.path()).unwrap().set_modified(then).unwrap();
+        assert!(!is_same_file(&a, &b));
+        assert_eq!(each_once(&[&a, &b, &a]), [&&a, &&b]);
+        check_files(&[("config", &a)], &[("output", &b)]).unwrap();
+        assert_eq!(std::fs::metadata(folder.path()).unwrap().modified().unwrap(), then);
     }
 
     #[test]

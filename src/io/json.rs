@@ -4,7 +4,7 @@ mod strict;
 
 pub use strict::parse;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, quoted};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -41,6 +41,12 @@ pub fn join(outer: &str, inner: &str) -> String {
     }
 }
 
+/// The way to a key as messages show it: as it is if it is one of words, in quotes and not longer than a line if not.
+fn shown(path: &str) -> String {
+    let is_word = |letter: char| letter.is_ascii_alphanumeric() || "_-.[]".contains(letter);
+    if path.len() <= 80 && path.chars().all(is_word) { path.to_string() } else { quoted(path) }
+}
+
 /// The same error for a parameter of the section `path`.
 pub fn within(path: &str, error: Error) -> Error {
     match error {
@@ -51,15 +57,17 @@ pub fn within(path: &str, error: Error) -> Error {
 
 /// Turns what serde says into the crate's form.
 fn explain(path: &str, value: &Value, inner: &str, message: &str) -> Error {
-    let allowed = message.split_once("expected ").map_or(message, |(_, allowed)| allowed).replace('`', "");
+    // What the value itself contains comes before.
+    let allowed = message.rsplit_once("expected ").map_or(message, |(_, allowed)| allowed).replace('`', "");
     if let Some(rest) = message.strip_prefix("unknown field `") {
-        let key = rest.split('`').next().unwrap_or(rest);
+        let end = ["`, expected ", "`, there "].iter().find_map(|end| rest.rsplit_once(end));
+        let key = end.map_or(rest, |(key, _)| key);
         // The path ends with the unknown key or, depending on the reader, with the table that holds it.
         let path = if path == key || path.ends_with(&format!(".{key}")) { path.to_string() } else { join(path, key) };
-        return Error::input(format!("unknown key {path}"), found(value, inner), format!("left out, or {allowed}"));
+        return Error::input(format!("unknown key {}", shown(&path)), found_in(value, inner), format!("left out, or {allowed}"));
     }
     // A reader of this crate that refuses a word says so itself.
-    let allowed = message.split_once(": must be ").map_or(allowed, |(_, allowed)| allowed.to_string());
+    let allowed = message.rsplit_once(": must be ").map_or(allowed, |(_, allowed)| allowed.to_string());
     let allowed = match allowed.as_str() {
         "f64" | "f32" => "a number".to_string(),
         "usize" | "u64" | "u32" => "a whole number, 0 or larger".to_string(),
@@ -67,14 +75,19 @@ fn explain(path: &str, value: &Value, inner: &str, message: &str) -> Error {
         "a string" => "a text in quotes".to_string(),
         _ => allowed,
     };
-    let parameter = if path.is_empty() { "configuration" } else { path };
-    Error::input(parameter, found(value, inner), allowed)
+    let parameter = if path.is_empty() { "configuration".to_string() } else { shown(path) };
+    Error::input(parameter, found_in(value, inner), allowed)
 }
 
 /// The value under the key `inner`, as JSON, not longer than a line.
-fn found(value: &Value, inner: &str) -> String {
+fn found_in(value: &Value, inner: &str) -> String {
     let pointer = inner.split('.').filter(|part| !part.is_empty()).try_fold(value, |at, key| at.get(key));
-    let text = pointer.unwrap_or(value).to_string();
+    found(pointer.unwrap_or(value))
+}
+
+/// The value as JSON, not longer than a line.
+fn found(value: &Value) -> String {
+    let text = value.to_string();
     if text.chars().count() > 60 { format!("{}...", text.chars().take(57).collect::<String>()) } else { text }
 }
 
@@ -132,6 +145,12 @@ mod tests {
             "unknown key probe.heigth = 3: must be left out, or one of width, share, inner"
         );
         assert_eq!(message(json!({"inner": {"q": 3}})), "unknown key probe.inner.q = 3: must be left out, or quality");
+        let long = message(json!({"k".repeat(160_000): 3}));
+        assert!(long.starts_with("unknown key \"probe.kkk") && long.len() < 250, "{} letters", long.len());
+        let colour = message(json!({"\u{1b}[31m`, x": 3}));
+        assert!(colour.starts_with(r#"unknown key "probe.\u{1b}[31m`, x" = 3: must be left out"#), "{colour}");
+        let wrong = message(json!({"inner": {"quality": format!("expected {}", "k".repeat(160_000))}}));
+        assert!(wrong.len() < 250 && wrong.ends_with("draft, standard, high, reference"), "{} letters", wrong.len());
         assert_eq!(message(json!([1])), "probe = [1]: must be a table of keys and values in braces");
     }
 }

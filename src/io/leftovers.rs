@@ -13,15 +13,30 @@ use std::time::{Duration, Instant};
 const PREFIX: &str = ".skyprobe-";
 const SUFFIX: &str = ".part";
 
+/// Of a file that is about to be replaced: never removed by others, since it may be all that there is of it.
+const KEPT: &str = ".kept";
+
+/// How often a file is made anew that another process takes for abandoned: between its birth and its lock.
+pub(super) const ATTEMPTS: usize = 16;
+
 /// Age from which an unfinished file of another machine is abandoned, if its lock is free.
 const OLD: Duration = Duration::from_secs(24 * 3600);
 
 /// Makes unfinished files with names of their own.
-pub(super) fn builder<'a>() -> tempfile::Builder<'a, 'static> {
+pub(super) fn builder() -> tempfile::Builder<'static, 'static> {
+    named(SUFFIX)
+}
+
+/// Makes second names for files that are about to be replaced.
+pub(super) fn keeper() -> tempfile::Builder<'static, 'static> {
+    named(KEPT)
+}
+
+fn named(suffix: &'static str) -> tempfile::Builder<'static, 'static> {
     static OWN: OnceLock<String> = OnceLock::new();
     let own = OWN.get_or_init(|| machine().map_or_else(|| PREFIX.to_owned(), |machine| format!("{PREFIX}{machine}-")));
     let mut builder = tempfile::Builder::new();
-    builder.prefix(own).suffix(SUFFIX);
+    builder.prefix(own).suffix(suffix);
     builder
 }
 
@@ -46,7 +61,7 @@ pub(super) fn clean(folder: &Path) {
 }
 
 /// Removes what killed processes left in `folder`. Whatever cannot be read, locked or removed stays.
-fn remove_abandoned(folder: &Path) {
+pub(super) fn remove_abandoned(folder: &Path) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         if is_unfinished(&entry.file_name().to_string_lossy()) {

@@ -52,6 +52,51 @@ def test_a_probe_that_is_there_is_used_as_it_is(probe, tmp_path):
     assert (tmp_path / "picture.exr").exists()
 
 
+def test_nothing_is_written_over_what_is_read_or_read_only(probe, tmp_path):
+    path = tmp_path / "sky.exr"
+    probe(width=128, rows="corner").save(path)
+    path.chmod(0o444)
+    (tmp_path / "soft.exr").symlink_to("sky.exr")
+    (tmp_path / "hard.exr").hardlink_to(path)
+    (tmp_path / "inner").mkdir()
+    (tmp_path / "view.png").hardlink_to(path)
+    (tmp_path / "scene.exr").write_bytes(render_scene.ROOT.joinpath("mitsuba_scenes", "probe_scene.xml").read_bytes())
+    for name in ("kept.exr", "other.png"):
+        (tmp_path / name).write_bytes(b"old")
+        (tmp_path / name).chmod(0o444)
+    before = {file.name: file.read_bytes() for file in tmp_path.iterdir() if file.is_file()}
+    given = ("--probe", path, "--variant", "scalar_rgb", *SMALL)
+    for output, more in [
+        ("sky.exr", ()),
+        ("inner/../sky.exr", ()),
+        ("soft.exr", ()),
+        ("hard.exr", ()),
+        ("view.exr", ()),
+        ("scene.exr", ("--scene", tmp_path / "scene.exr")),
+        ("kept.exr", ()),
+        ("other.exr", ()),
+    ]:
+        answer = run(*given, *more, "--output", tmp_path / output)
+        assert answer.returncode == 2, output
+        assert answer.stderr.count("\n") == 1 and ("another file than" in answer.stderr or "read-only" in answer.stderr), answer.stderr
+        assert {file.name: file.read_bytes() for file in tmp_path.iterdir() if file.is_file()} == before
+        assert path.stat().st_mode & 0o777 == 0o444
+
+
+def test_what_is_replaced_keeps_its_mode_and_links_stay_links(probe, tmp_path):
+    path = tmp_path / "sky.exr"
+    probe(width=128, rows="corner").save(path)
+    for name in ("real.exr", "picture.png"):
+        (tmp_path / name).write_bytes(b"old")
+        (tmp_path / name).chmod(0o600)
+    (tmp_path / "picture.exr").symlink_to("real.exr")
+    answer = run("--probe", path, "--output", tmp_path / "picture.exr", "--variant", "scalar_rgb", *SMALL)
+    assert answer.returncode == 0, answer.stderr
+    assert (tmp_path / "picture.exr").is_symlink()
+    assert read(tmp_path / "real.exr").shape == (64, 96, 3)
+    assert [(tmp_path / name).stat().st_mode & 0o777 for name in ("real.exr", "picture.png")] == [0o600, 0o600]
+
+
 def test_centred_rows_are_pointed_out(probe, tmp_path):
     path = tmp_path / "sky.exr"
     probe(width=128, rows="centre").save(path)

@@ -60,6 +60,20 @@ fn of_several_files_all_get_their_names_or_none() {
 }
 
 #[test]
+fn what_is_kept_to_be_put_back_is_not_cleaned_by_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("sky.exr");
+    std::fs::write(&target, "before").unwrap();
+    let kept = kept(&target).unwrap();
+    leftovers::remove_abandoned(folder.path());
+    std::fs::write(folder.path().join("new"), "after").unwrap();
+    std::fs::rename(folder.path().join("new"), &target).unwrap();
+    take_back(vec![(target.clone(), Some(kept))]);
+    assert_eq!(std::fs::read_to_string(&target).unwrap(), "before");
+    assert_eq!(count(&folder), 1);
+}
+
+#[test]
 fn targets_that_cannot_be_are_refused_before_any_work() {
     let folder = tempfile::tempdir().unwrap();
     let inside = |name: &str| check_writable(&folder.path().join(name));

@@ -143,10 +143,11 @@ pub fn read<R: Read + Seek>(
         return Err(source.damaged(format!("the header promises more pixels than {bytes} bytes can hold: damaged or cut short")));
     }
     let places = find(source, header, number, &grid)?;
+    let raw_of = |index: usize| codec::raw_size(&part.channels, &grid.area(index)).unwrap_or(usize::MAX / 2);
     let mut next = 0;
     while next < places.len() {
         let (mut batch, mut size) = (Vec::new(), 0);
-        while next < places.len() && (batch.is_empty() || size < BATCH) {
+        while next < places.len() && (batch.is_empty() || size + raw_of(next) <= BATCH) {
             let packed = read_block(source, header, number, &grid, (next, places[next]))?;
             size += packed.raw;
             batch.push(packed);

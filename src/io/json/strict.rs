@@ -1,6 +1,6 @@
 //! JSON text in which every key stands once.
 
-use super::join;
+use super::{found, join, shown};
 use crate::error::{Error, Result};
 use serde::de::{DeserializeSeed, Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -16,10 +16,11 @@ use std::fmt;
 pub fn parse(parameter: &str, text: &str) -> Result<Value> {
     let twice = RefCell::new(None);
     let mut reader = serde_json::Deserializer::from_str(text);
-    let value = At { path: String::new(), twice: &twice }.deserialize(&mut reader);
+    let value = At { step: Step::Whole, twice: &twice }.deserialize(&mut reader);
     value.and_then(|value| reader.end().map(|()| value)).map_err(|error| match twice.take() {
-        Some((key, first, second)) => {
-            Error::input(key, format!("{first} and {second}"), format!("given once (line {})", error.line()))
+        Some((path, first, second)) => {
+            let values = format!("{} and {}", found(&first), found(&second));
+            Error::input(shown(&path), values, format!("given once (line {})", error.line()))
         }
         None => Error::input(parameter, "text", format!("JSON ({error})")),
     })
@@ -28,10 +29,32 @@ pub fn parse(parameter: &str, text: &str) -> Result<Value> {
 /// A key that stands twice, and its values.
 type Twice = RefCell<Option<(String, Value, Value)>>;
 
-/// Reads the value of the key `path`.
+/// Reads the value at `step`.
 struct At<'a> {
-    path: String,
+    step: Step<'a>,
     twice: &'a Twice,
+}
+
+/// The way to a value; text only once that is asked for, since a long key has many values.
+#[derive(Clone, Copy)]
+enum Step<'a> {
+    /// The whole text.
+    Whole,
+    /// Under a key of the table there.
+    Key(&'a Step<'a>, &'a str),
+    /// In this place of the list there.
+    Index(&'a Step<'a>, usize),
+}
+
+impl Step<'_> {
+    /// Such as `atmosphere.components.0.kind`.
+    fn path(&self) -> String {
+        match self {
+            Self::Whole => String::new(),
+            Self::Key(outer, key) => join(&outer.path(), key),
+            Self::Index(outer, index) => join(&outer.path(), &index.to_string()),
+        }
+    }
 }
 
 impl<'de> DeserializeSeed<'de> for At<'_> {
@@ -75,7 +98,7 @@ impl<'de> Visitor<'de> for At<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> std::result::Result<Value, A::Error> {
         let mut list = Vec::new();
-        while let Some(value) = items.next_element_seed(self.within(&list.len().to_string()))? {
+        while let Some(value) = items.next_element_seed(self.within(Step::Index(&self.step, list.len())))? {
             list.push(value);
         }
         Ok(list.into())
@@ -84,9 +107,9 @@ impl<'de> Visitor<'de> for At<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> std::result::Result<Value, A::Error> {
         let mut table = Map::new();
         while let Some(key) = entries.next_key_seed(Key)? {
-            let value = entries.next_value_seed(self.within(&key))?;
+            let value = entries.next_value_seed(self.within(Step::Key(&self.step, &key)))?;
             if let Some(first) = table.get(&key) {
-                self.twice.replace(Some((join(&self.path, &key), first.clone(), value)));
+                self.twice.replace(Some((Step::Key(&self.step, &key).path(), first.clone(), value)));
                 return Err(A::Error::custom("a key that stands twice"));
             }
             table.insert(key, value);
@@ -96,8 +119,8 @@ impl<'de> Visitor<'de> for At<'_> {
 }
 
 impl At<'_> {
-    fn within(&self, key: &str) -> Self {
-        Self { path: join(&self.path, key), twice: self.twice }
+    fn within<'a>(&'a self, step: Step<'a>) -> At<'a> {
+        At { step, twice: self.twice }
     }
 }
 
@@ -131,6 +154,33 @@ mod tests {
         assert!(message(r#"{"night": {"bortle": 3, "x": {}, "bortle": 4}}"#).starts_with("night.bortle = 3 and 4: must be"));
         assert!(message(r#"{"a": [0, {"b": {"c": 1, "c": 2}}]}"#).starts_with("a.1.b.c = 1 and 2: must be"));
         assert!(message(r#"{"a": {}, "a": {}}"#).starts_with("a = {} and {}: must be"));
+    }
+
+    #[test]
+    fn a_key_that_stands_twice_is_shown_on_one_short_line() {
+        let long = "k".repeat(160_000);
+        let value = format!("\"{}\"", "v".repeat(160_000));
+        for text in [
+            format!(r#"{{"{long}": 1, "{long}": 2}}"#),
+            format!(r#"{{"{long}": {{"a": 1, "a": 2}}}}"#),
+            format!(r#"{{"a": {value}, "a": {value}}}"#),
+            format!("{}{}{}", r#"{"k": ["#.repeat(40), r#"{"a": 1, "a": 2}"#, "]}".repeat(40)),
+        ] {
+            let message = parse("config", &text).unwrap_err().to_string();
+            assert!(message.len() < 300 && message.contains(" must be given once"), "{} letters", message.len());
+        }
+        let message = parse("config", "{\"\\u001b[31m\": 1, \"\\u001b[31m\": 2}").unwrap_err().to_string();
+        assert_eq!(message, "\"\\u{1b}[31m\" = 1 and 2: must be given once (line 1)");
+    }
+
+    /// Or a long key over many values would be copied as often.
+    #[test]
+    fn the_way_to_a_value_is_not_copied_for_each() {
+        let (key, item) = ("k".repeat(1000), "k");
+        let outer = Step::Key(&Step::Whole, &key);
+        let inner = Step::Index(&outer, 7);
+        assert_eq!(Step::Key(&inner, item).path(), format!("{key}.7.k"));
+        assert!(!std::mem::needs_drop::<Step<'_>>() && !std::mem::needs_drop::<At<'_>>());
     }
 
     #[test]
