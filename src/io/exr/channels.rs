@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 const FINISHED: [&str; 10] = ["combined", "beauty", "rgba", "rgb", "composite", "c", "color", "colour", "main", "master"];
 
 /// Layers that hold no light.
-const NO_LIGHT: [&str; 24] = [
+const NO_LIGHT: [&str; 34] = [
     "normal",
     "normals",
     "n",
@@ -40,6 +40,16 @@ const NO_LIGHT: [&str; 24] = [
     "mist",
     "denoising normal",
     "denoising depth",
+    "denoising albedo",
+    "albedo",
+    "ao",
+    "ambientocclusion",
+    "shadow",
+    "mask",
+    "matte",
+    "objectid",
+    "materialid",
+    "zdepth",
 ];
 
 /// Views of a stereo picture, which may stand last in the name of a layer.
@@ -101,8 +111,8 @@ impl Layer<'_> {
         colours.iter().all(whole).then(|| colours.map(|colour| self.get(colour)).to_vec())
     }
 
-    /// The best picture in it.
-    fn picture(&self) -> Option<(Colours, Vec<Option<usize>>)> {
+    /// The best picture in it; Z is the depth of a finished picture, in other layers it may be a coordinate.
+    fn picture(&self, is_finished: bool) -> Option<(Colours, Vec<Option<usize>>)> {
         if let Some(channels) = self.whole(["R", "G", "B"]) {
             return Some((Colours::Rgb, channels));
         }
@@ -115,8 +125,7 @@ impl Layer<'_> {
         if let Some(channels) = self.whole(["X", "Y", "Z"]) {
             return Some((Colours::Xyz, channels));
         }
-        // Beside X or Z it is a coordinate.
-        let alone = self.get("X").is_none() && self.get("Z").is_none();
+        let alone = self.get("X").is_none() && (is_finished || self.get("Z").is_none());
         luminance.filter(|_| alone).map(|number| (Colours::Grey, vec![Some(number)]))
     }
 }
@@ -129,7 +138,7 @@ fn place(prefix: &str) -> u32 {
     match last {
         "" => 0,
         name if FINISHED.contains(&name) => 1,
-        name if NO_LIGHT.contains(&name) => 3,
+        name if NO_LIGHT.contains(&name) || name.starts_with("crypto") => 3,
         _ => 2,
     }
 }
@@ -170,8 +179,8 @@ pub fn choose(parts: &[Part]) -> Option<Found> {
             }
         }
         for (prefix, layer) in layers {
-            let Some((colours, channels)) = layer.picture() else { continue };
             let place = place(&prefix);
+            let Some((colours, channels)) = layer.picture(place <= 1) else { continue };
             let may_be_other = match colours {
                 Colours::Rgb | Colours::LuminanceChroma => false,
                 Colours::Xyz => place > 1,
@@ -190,12 +199,17 @@ pub fn choose(parts: &[Part]) -> Option<Found> {
     best.map(|(_, found)| found).or_else(|| only(parts))
 }
 
-/// The only channel of a file that is not alpha.
+/// The only channel of a file that is not alpha, nor the depth beside it.
 fn only(parts: &[Part]) -> Option<Found> {
+    only_beside(parts, &["A"]).or_else(|| only_beside(parts, &["A", "Z"]))
+}
+
+/// The only channel of a file beside those of the colours `left_out`.
+fn only_beside(parts: &[Part], left_out: &[&str]) -> Option<Found> {
     let all = parts.iter().enumerate().flat_map(|(part, found)| (0..found.channels.len()).map(move |channel| (part, channel)));
     let is_light = |&(part, channel): &(usize, usize)| {
         let name = parts[part].channels[channel].text();
-        colour(split("", &name).1) != Some("A")
+        !colour(split("", &name).1).is_some_and(|colour| left_out.contains(&colour))
     };
     let mut lights = all.filter(is_light);
     match (lights.next(), lights.next()) {
@@ -250,7 +264,7 @@ mod tests {
     #[test]
     fn the_picture_is_told_from_what_is_beside_it() {
         type Case<'a> = (&'a [&'a str], Option<(Colours, &'a [&'a str])>);
-        let cases: [Case<'_>; 20] = [
+        let cases: [Case<'_>; 26] = [
             (&["b", "g", "r"], Some((Colours::Rgb, &["r", "g", "b"]))),
             (&["blue", "green", "red"], Some((Colours::Rgb, &["red", "green", "blue"]))),
             (&["B", "g", "r", "R", "b", "G"], Some((Colours::Rgb, &["R", "G", "B"]))),
@@ -267,7 +281,23 @@ mod tests {
             (&["X", "Y", "Z", "B", "G", "R"], Some((Colours::Rgb, &["R", "G", "B"]))),
             (&["A", "Y"], Some((Colours::Grey, &["Y"]))),
             (&["B", "G", "Y"], Some((Colours::Grey, &["Y"]))),
-            (&["Y", "Z"], None),
+            (&["Y", "Z"], Some((Colours::Grey, &["Y"]))),
+            (&["R", "Z"], Some((Colours::Grey, &["R"]))),
+            (&["Z"], Some((Colours::Grey, &["Z"]))),
+            (&["A", "Z"], Some((Colours::Grey, &["Z"]))),
+            (&["X", "Y"], None),
+            (&["albedo.B", "albedo.G", "albedo.R", "Y"], Some((Colours::Grey, &["Y"]))),
+            (
+                &[
+                    "v.CryptoObject00.b",
+                    "v.CryptoObject00.g",
+                    "v.CryptoObject00.r",
+                    "v.main_light.B",
+                    "v.main_light.G",
+                    "v.main_light.R",
+                ],
+                Some((Colours::Rgb, &["v.main_light.R", "v.main_light.G", "v.main_light.B"])),
+            ),
             (&["intensity"], Some((Colours::Grey, &["intensity"]))),
             (&["A", "R"], Some((Colours::Grey, &["R"]))),
             (&["A"], None),
