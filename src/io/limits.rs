@@ -18,7 +18,7 @@ const PART_OF_ONE_COLOUR: u64 = 30;
 /// Bounds of what the readers of pictures take from a file before they refuse it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureLimits {
-    /// Most pixels of a picture [millions], above 0 to 1073.741824, which is all that a picture can have. A million pixels take 12 MB in memory, and about as much again
+    /// Most pixels of a picture [millions], above 0 to 1073.741824, which is all that a picture can have. A million pixels take 12 MB in memory, and about as much again (luminance with chroma up to 32 MB more)
     /// while they are read. Default: 256, so that probes of 16384 x 8192 (134) are within.
     pub max_megapixels: f64,
 }
