@@ -199,9 +199,18 @@ pub fn choose(parts: &[Part]) -> Option<Found> {
     best.map(|(_, found)| found).or_else(|| only(parts))
 }
 
-/// The only channel of a file that is not alpha, nor the depth beside it.
+/// The only channel of a file that is not alpha; or the only one beside alpha and depth, if it may be light.
 fn only(parts: &[Part]) -> Option<Found> {
-    only_beside(parts, &["A"]).or_else(|| only_beside(parts, &["A", "Z"]))
+    only_beside(parts, &["A"]).or_else(|| only_beside(parts, &["A", "Z"]).filter(|found| may_be_light(parts, found)))
+}
+
+/// Whether neither the name nor the layer of the first channel says that it is something else.
+fn may_be_light(parts: &[Part], found: &Found) -> bool {
+    let Some(Some(number)) = found.channels.first() else { return false };
+    let part = &parts[found.part];
+    let name = part.channels[*number].text();
+    let (prefix, last) = split(own_name(parts, part), &name);
+    place(&prefix) < 3 && place(last) < 3 && colour(last) != Some("X")
 }
 
 /// The only channel of a file beside those of the colours `left_out`.
@@ -264,7 +273,7 @@ mod tests {
     #[test]
     fn the_picture_is_told_from_what_is_beside_it() {
         type Case<'a> = (&'a [&'a str], Option<(Colours, &'a [&'a str])>);
-        let cases: [Case<'_>; 26] = [
+        let cases: [Case<'_>; 29] = [
             (&["b", "g", "r"], Some((Colours::Rgb, &["r", "g", "b"]))),
             (&["blue", "green", "red"], Some((Colours::Rgb, &["red", "green", "blue"]))),
             (&["B", "g", "r", "R", "b", "G"], Some((Colours::Rgb, &["R", "G", "B"]))),
@@ -285,6 +294,9 @@ mod tests {
             (&["R", "Z"], Some((Colours::Grey, &["R"]))),
             (&["Z"], Some((Colours::Grey, &["Z"]))),
             (&["A", "Z"], Some((Colours::Grey, &["Z"]))),
+            (&["Z", "id.X"], None),
+            (&["Z", "mask"], None),
+            (&["Z", "intensity"], Some((Colours::Grey, &["intensity"]))),
             (&["X", "Y"], None),
             (&["albedo.B", "albedo.G", "albedo.R", "Y"], Some((Colours::Grey, &["Y"]))),
             (
