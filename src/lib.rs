@@ -29,6 +29,7 @@ pub mod ephemeris;
 pub mod error;
 pub mod io;
 pub mod light;
+pub mod parameter;
 pub mod places;
 pub mod post;
 pub mod probe;
@@ -36,10 +37,12 @@ pub mod progress;
 #[cfg(feature = "python")]
 mod python;
 pub mod quality;
+pub mod scene;
 pub mod sky;
 pub mod spectrum;
 pub mod time;
 pub mod units;
+pub mod words;
 
 pub use error::{Error, Result};
 pub use progress::Progress;

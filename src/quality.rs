@@ -1,12 +1,11 @@
 //! Quality levels: rows of plain numbers that say how finely the light is solved and gathered.
 
-use crate::error::{Error, Result};
+use crate::words::words;
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// A named level of accuracy and cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Quality {
     /// For live previews.
     Draft,
@@ -18,6 +17,8 @@ pub enum Quality {
     /// For checking the others.
     Reference,
 }
+
+words!(Quality, "quality", { Draft => "draft", Standard => "standard", High => "high", Reference => "reference" });
 
 /// What a quality level means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,20 +133,6 @@ impl Quality {
                 dome_circles: 96,
                 dome_azimuths: 72,
             },
-        }
-    }
-}
-
-impl FromStr for Quality {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "draft" => Ok(Self::Draft),
-            "standard" => Ok(Self::Standard),
-            "high" => Ok(Self::High),
-            "reference" => Ok(Self::Reference),
-            _ => Err(Error::input("quality", format!("{text:?}"), "draft, standard, high or reference")),
         }
     }
 }

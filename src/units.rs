@@ -4,10 +4,8 @@
 //! altitudes of the atmosphere in km (names end in `_km`), heights of observers in m (names end in `_m`).
 //! Spectral radiance in W m-2 sr-1 nm-1, spectral irradiance in W m-2 nm-1.
 
-use crate::error::{Error, Result};
+use crate::words::words;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
 
 /// Maximum luminous efficacy of radiation, CIE 1931 observer [lm W-1] (CIE 018:2019; 683.002 by the 2019 SI definition at 540 THz).
 pub const LUMINOUS_EFFICACY: f64 = 683.0;
@@ -29,7 +27,7 @@ pub const EARTH_RADIUS_KM: f64 = 6_371.0;
 /// XYZ values inside the crate are integrals of spectral radiance times the colour matching functions over wavelength;
 /// a scale multiplies all three by [`Scale::factor`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Scale {
     /// Y = luminance / 683 lm W-1 [W m-2 sr-1]: what Blender's own physical sky gives.
     #[default]
@@ -40,10 +38,9 @@ pub enum Scale {
     Luminance,
 }
 
-impl Scale {
-    /// All scales, in the order in which they are listed to users.
-    pub const ALL: [Self; 3] = [Self::Blender, Self::Mitsuba, Self::Luminance];
+words!(Scale, "scale", { Blender => "blender", Mitsuba => "mitsuba", Luminance => "luminance" });
 
+impl Scale {
     /// Factor that turns an integral over wavelength [W m-2 sr-1] into this scale.
     pub const fn factor(self) -> f64 {
         match self {
@@ -56,32 +53,6 @@ impl Scale {
     /// Luminance of Y = 1 in this scale [cd m-2].
     pub const fn white_luminance(self) -> f64 {
         LUMINOUS_EFFICACY / self.factor()
-    }
-
-    /// The name that users write: `blender`, `mitsuba` or `luminance`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Blender => "blender",
-            Self::Mitsuba => "mitsuba",
-            Self::Luminance => "luminance",
-        }
-    }
-}
-
-impl fmt::Display for Scale {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
-}
-
-impl FromStr for Scale {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|scale| scale.name() == text)
-            .ok_or_else(|| Error::input("scale", format!("{text:?}"), "blender, mitsuba or luminance"))
     }
 }
 

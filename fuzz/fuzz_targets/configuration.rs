@@ -2,13 +2,13 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use skyprobe::io::Config;
+use skyprobe::scene::Scene;
 
 fuzz_target!(|text: &str| {
-    if let Ok(config) = Config::from_json(text) {
+    if let Ok(config) = Scene::from_json(text) {
         let _ = config.validate();
         let written = config.to_json();
-        let again = Config::from_json(&written).expect("what was written is read");
+        let again = Scene::from_json(&written).expect("what was written is read");
         assert_eq!(again.to_json(), written);
     }
 });

@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use serde::de::DeserializeOwned;
-use skyprobe::{Result, atmosphere, io::json, post, probe, sky};
+use skyprobe::{Result, atmosphere, post, probe, scene::json, sky};
 
 fn read<T: DeserializeOwned>(value: &serde_json::Value, validate: impl Fn(&T) -> Result<()>) {
     match json::read::<T>("settings", value).and_then(|settings| validate(&settings)) {

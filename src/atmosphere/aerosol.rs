@@ -4,10 +4,10 @@
 //! distributions at any humidity ([`super::particle_tables`]; that reproduces OPAC's table 4 at 550 nm and 80 % humidity within 0.003 in
 //! albedo and asymmetry). Scale heights are OPAC's optical depth divided by its extinction at the ground, rounded.
 
-use super::names::words;
 use super::particle_tables::Mixture;
 use super::particles::{Particle, WAVELENGTHS_NM};
 use crate::spectrum::CubicSpline;
+use crate::words::words;
 use serde::{Deserialize, Serialize};
 
 /// Wavelength at which the amount of aerosol is given [nm].

@@ -4,9 +4,10 @@
 //! none is a measurement of one place. Snow is clean and fresh (0.96 to 0.98 in the visible by Grenfell, Warren & Mullen, J. Geophys.
 //! Res. 99, 18669 (1994), less a little dust); the sea is a wind-roughened surface under a whole sky, about 0.06, and blue water.
 
-use super::names::words;
 use crate::error::{Error, Result, check_range};
+use crate::parameter::{Checked, Parameter};
 use crate::spectrum::CubicSpline;
+use crate::words::words;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
@@ -104,6 +105,15 @@ impl Ground {
     }
 }
 
+impl Checked for Ground {
+    fn check(&self, row: &Parameter, name: &str) -> Result<()> {
+        match self {
+            Self::Surface(_) => Ok(()),
+            Self::Albedo(albedo) => albedo.check(row, name),
+        }
+    }
+}
+
 impl FromStr for Ground {
     type Err = Error;
 
@@ -153,7 +163,7 @@ mod tests {
 
     #[test]
     fn presets_stay_albedos_between_their_values() {
-        for &surface in Surface::ALL {
+        for surface in Surface::ALL {
             for wavelength in (300..=1000).step_by(5) {
                 let spline = CubicSpline::new(&WAVELENGTHS_NM, &surface.values()).value(f64::from(wavelength));
                 assert!((0.015..0.97).contains(&spline), "{} at {wavelength} nm: {spline}", surface.name());

@@ -8,7 +8,6 @@ mod complex;
 pub mod ground;
 pub mod mie;
 pub mod molecules;
-mod names;
 pub mod optical_profile;
 pub mod ozone;
 pub mod parameters;

@@ -10,14 +10,15 @@
 //! All three mean the aerosol near the ground; that of the stratosphere is said by itself and comes on top.
 
 use super::aerosol::AerosolType;
-use super::ground::Ground;
+use super::ground::{Ground, Surface};
 use super::molecules;
-use super::names::words;
 use super::optical_profile::OpticalProfile;
 use super::preset::{Amount, Preset};
 use super::profile;
 use super::standard_atmosphere::StandardAtmosphere;
 use crate::error::{Error, Result, check_range};
+use crate::parameter::parameters;
+use crate::words::{Words, words};
 use serde::{Deserialize, Serialize};
 
 /// -ln 0.02: how many optical depths away a black object vanishes against the horizon.
@@ -47,60 +48,68 @@ words!(PhaseFunction, "phase_function", {
     CornetteShanks => "cornette_shanks",
 });
 
-/// The state of the air as the user gives it. Everything but the preset may be left out: the preset fills it in.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct AirParameters {
-    /// Where to start from.
-    pub preset: Preset,
-    /// Kind of aerosol.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub aerosol: Option<AerosolType>,
-    /// Relative humidity [%] (0 to 99, default 80), with which the particles grow. Amounts are those of the grown particles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub relative_humidity: Option<f64>,
-    /// Vertical optical depth of the aerosol at 550 nm (0 to 50). At most one of this, `turbidity` and `visibility_km`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub aod550: Option<f64>,
-    /// Optical depth of aerosol and molecules over that of the molecules at 550 nm (1 to 64).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub turbidity: Option<f64>,
-    /// Horizontal visibility at the ground [km], from 0.05 to that of pure air (about 340); the optical depth must not exceed 50.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub visibility_km: Option<f64>,
-    /// Replaces the aerosol's spectral extinction by (wavelength / 550 nm)^-exponent (-1 to 4).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub angstrom_exponent: Option<f64>,
-    /// Replaces the aerosol's single scattering albedo at all wavelengths (0 to 1).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub single_scattering_albedo: Option<f64>,
-    /// Replaces the aerosol's asymmetry parameter (-0.99 to 0.99), and so its phase function.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub asymmetry: Option<f64>,
-    /// How the aerosol scatters; by default `mie`, or `henyey_greenstein` if `asymmetry` is given or the type is not made of particles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub phase_function: Option<PhaseFunction>,
-    /// Replaces the aerosol's scale height, or the depth of a layer of fog [km] (0.1 to 20).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub aerosol_scale_height_km: Option<f64>,
-    /// Vertical optical depth at 550 nm of droplets of sulphuric acid in the stratosphere, as after a great eruption (0 to 1).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stratospheric_aod550: Option<f64>,
-    /// Altitude of the middle of the stratospheric aerosol [km] (12 to 40, default 20).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stratospheric_altitude_km: Option<f64>,
-    /// Ozone column [Dobson units] (0 to 1000).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ozone_du: Option<f64>,
-    /// Temperature and density profile, and the shape of the ozone profile.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub standard_atmosphere: Option<StandardAtmosphere>,
-    /// Pressure at the ground [hPa] (100 to 1100); scales the molecules at all altitudes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surface_pressure_hpa: Option<f64>,
-    /// The ground: a preset or one albedo (0 to 1).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ground: Option<Ground>,
+parameters! {
+    /// The state of the air as the user gives it. Everything but the preset may be left out: the preset fills it in.
+    pub struct AirParameters in "atmosphere", named "" in messages {
+        /// Where to start from.
+        preset: Preset = Preset::default() => words(Preset::WORDS).default("\"clear\"").option("preset", "NAME")
+            .more("A preset fills in what is left out: the kind and amount of aerosol, the ground, ozone and temperature.");
+        /// Kind of aerosol.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        aerosol: Option<AerosolType> = None => words(AerosolType::WORDS).by("the preset's").option("aerosol", "NAME");
+        /// Amount of aerosol as its vertical optical depth at 550 nm.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        aod550: Option<f64> = None => number(0.0, LARGEST_AOD550, "").by("the preset's").option("aod550", "TAU").group("amount")
+            .more("Clear is 0.1, murky 0.5, fog 2 and more.");
+        /// Amount of aerosol as turbidity: the optical depth of aerosol and molecules over that of the molecules at 550 nm.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        turbidity: Option<f64> = None => number(1.0, 64.0, "").by("the preset's").option("turbidity", "T").group("amount")
+            .more("Pure air is 1, clear 2, hazy 4 to 6, light fog 64.");
+        /// Amount of aerosol as horizontal visibility at the ground.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        visibility_km: Option<f64> = None => number(SHORTEST_VISIBILITY_KM, 4000.0, "km").by("the preset's").option("visibility", "KM").group("amount")
+            .more("At most that of pure air, about 340 km at the sea; the optical depth must not exceed 50.");
+        /// Ozone column.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        ozone_du: Option<f64> = None => number(0.0, 1000.0, "Dobson units").by("the preset's, mostly 300").option("ozone", "DU")
+            .more("It makes the twilight blue.");
+        /// The ground by name, or its albedo.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        ground: Option<Ground> = None => words_or_number(Surface::WORDS, 0.0, 1.0).by("the preset's").option("ground", "NAME|ALBEDO");
+        /// Optical depth at 550 nm of volcanic haze in the stratosphere.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        stratospheric_aod550: Option<f64> = None => number(0.0, 1.0, "").by("the preset's, mostly 0").option("stratospheric-aod550", "TAU").detail()
+            .more("Droplets of sulphuric acid, as after a great eruption; they come on top of the aerosol near the ground.");
+        /// Altitude of the middle of the volcanic haze.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        stratospheric_altitude_km: Option<f64> = None => number(12.0, 40.0, "km").by("20").option("stratospheric-altitude", "KM").detail();
+        /// Relative humidity, with which the particles grow.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        relative_humidity: Option<f64> = None => number(0.0, 99.0, "%").by("80").option("relative-humidity", "PERCENT").detail()
+            .more("Amounts are those of the grown particles.");
+        /// How the aerosol scatters.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        phase_function: Option<PhaseFunction> = None => words(PhaseFunction::WORDS).option("phase-function", "NAME").detail()
+            .by("mie; henyey_greenstein if an asymmetry is given or the aerosol is not made of particles");
+        /// Spectral slope of the aerosol's extinction, which becomes (wavelength / 550 nm)^-exponent.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        angstrom_exponent: Option<f64> = None => number(-1.0, 4.0, "").by("the aerosol's own spectrum").option("angstrom-exponent", "ALPHA").detail();
+        /// Share of the aerosol's extinction that is scattering, at all wavelengths.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        single_scattering_albedo: Option<f64> = None => number(0.0, 1.0, "").by("the aerosol's own spectrum").option("single-scattering-albedo", "SHARE").detail();
+        /// Asymmetry parameter: how much the aerosol scatters forward, by the function of Henyey and Greenstein.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        asymmetry: Option<f64> = None => number(-0.99, 0.99, "").by("the aerosol's").option("asymmetry", "G").detail();
+        /// Height in which the aerosol thins out to 1/e, or depth of a layer of fog.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        aerosol_scale_height_km: Option<f64> = None => number(0.1, 20.0, "km").by("the aerosol's").option("aerosol-scale-height", "KM").detail();
+        /// Profile of temperature and density, and shape of the ozone profile.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        standard_atmosphere: Option<StandardAtmosphere> = None => words(StandardAtmosphere::WORDS).by("the preset's").option("standard-atmosphere", "NAME").detail();
+        /// Pressure at the ground, which scales the molecules at all altitudes.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        surface_pressure_hpa: Option<f64> = None => number(100.0, 1100.0, "hPa").by("that of the standard atmosphere").option("surface-pressure", "HPA").detail();
+    }
 }
 
 /// The state of the air with nothing left open.
@@ -154,22 +163,7 @@ impl AirParameters {
     /// # Errors
     /// [`Error::Input`] that names the first parameter that cannot be used.
     pub fn resolve(&self) -> Result<Air> {
-        for (name, value, low, high, unit) in [
-            ("relative_humidity", self.relative_humidity, 0.0, 99.0, "%"),
-            ("aod550", self.aod550, 0.0, LARGEST_AOD550, ""),
-            ("turbidity", self.turbidity, 1.0, 64.0, ""),
-            ("angstrom_exponent", self.angstrom_exponent, -1.0, 4.0, ""),
-            ("single_scattering_albedo", self.single_scattering_albedo, 0.0, 1.0, ""),
-            ("asymmetry", self.asymmetry, -0.99, 0.99, ""),
-            ("aerosol_scale_height_km", self.aerosol_scale_height_km, 0.1, 20.0, "km"),
-            ("stratospheric_aod550", self.stratospheric_aod550, 0.0, 1.0, ""),
-            ("stratospheric_altitude_km", self.stratospheric_altitude_km, 12.0, 40.0, "km"),
-            ("ozone_du", self.ozone_du, 0.0, 1000.0, "Dobson units"),
-            ("surface_pressure_hpa", self.surface_pressure_hpa, 100.0, 1100.0, "hPa"),
-        ] {
-            value.map_or(Ok(0.0), |value| check_range(name, value, low, high, unit))?;
-        }
-        self.ground.map_or(Ok(()), Ground::validate)?;
+        self.check_ranges()?;
 
         let defaults = self.preset.defaults();
         let standard_atmosphere = self.standard_atmosphere.unwrap_or(defaults.standard_atmosphere);
@@ -370,7 +364,7 @@ mod tests {
             let message = serde_json::from_str::<AirParameters>(json).unwrap_err().to_string();
             assert!(message.contains(part), "{message}");
         }
-        let json = r#"{"preset":"hazy","aerosol":"urban","visibility_km":12.5,"standard_atmosphere":"tropical","ground":"sea"}"#;
+        let json = r#"{"preset":"hazy","aerosol":"urban","visibility_km":12.5,"ground":"sea","standard_atmosphere":"tropical"}"#;
         let parameters: AirParameters = serde_json::from_str(json).unwrap();
         assert_eq!(serde_json::to_string(&parameters).unwrap(), json);
     }

@@ -328,7 +328,7 @@ mod tests {
 
     #[test]
     fn every_phase_function_is_normalised_and_has_the_asymmetry_of_its_particle() {
-        for &particle in Particle::ALL {
+        for particle in Particle::ALL {
             for &humidity in particle.humidities() {
                 let mixture = Mixture::new(&[(particle, 1.0)], humidity);
                 let table = mixture.phase_table(&WAVELENGTHS_NM);

@@ -6,8 +6,8 @@
 //! weight, 215 K: Hummel, Shettle & Longtin 1988, AFGL-TR-88-0166, interpolated) have the effective radius of 0.5 um that was found
 //! three to six months after the eruption of Pinatubo (Russell et al., J. Geophys. Res. 101, 18745, 1996) and a chosen width.
 
-use super::names::words;
 use super::size_distribution::SizeDistribution;
+use crate::words::words;
 
 /// Wavelengths of the tables [nm].
 pub const WAVELENGTHS_NM: [f64; 10] = [350.0, 400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0, 750.0, 800.0];

@@ -2,8 +2,8 @@
 
 use super::aerosol::AerosolType;
 use super::ground::Surface;
-use super::names::words;
 use super::standard_atmosphere::StandardAtmosphere;
+use crate::words::words;
 use serde::{Deserialize, Serialize};
 
 /// A named state of the air.

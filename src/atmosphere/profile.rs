@@ -267,7 +267,7 @@ mod tests {
 
     #[test]
     fn every_preset_gives_a_valid_profile() {
-        for &preset in crate::atmosphere::Preset::ALL {
+        for preset in crate::atmosphere::Preset::ALL {
             let profile = AirParameters { preset, ..AirParameters::default() }.optical_profile(&wavelengths(16)).unwrap();
             assert_eq!((profile.altitudes_km[0], *profile.altitudes_km.last().unwrap()), (0.0, TOP_KM));
             assert!(profile.altitudes_km.len() < 160);

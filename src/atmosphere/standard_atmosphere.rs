@@ -8,9 +8,9 @@
 //! Above, its temperature formulas and its tabulated pressure to 140 km, whose logarithm is interpolated by a cubic spline. The other models are the tables of AFGL-TR-86-0110
 //! (Anderson et al. 1986) to 120 km, continued exponentially. Number density n = p / (k T).
 
-use super::names::words;
 use crate::spectrum::CubicSpline;
 use crate::spectrum::binned::columns;
+use crate::words::words;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn density_falls_smoothly_to_the_top() {
-        for &model in StandardAtmosphere::ALL {
+        for model in StandardAtmosphere::ALL {
             let mut before = model.number_density_per_m3(0.0);
             for step in 1..=280 {
                 let z = f64::from(step) * 0.5;
@@ -273,7 +273,7 @@ mod tests {
 
     #[test]
     fn the_column_carries_the_pressure_at_the_ground() {
-        for &model in StandardAtmosphere::ALL {
+        for model in StandardAtmosphere::ALL {
             // Molecules of 4.8097e-26 kg under a gravity that falls with height: 9.80665 at the ground, about 0.45 % less at the mean
             // height of the mass (only at 45 degrees; the AFGL models are for other latitudes).
             let pressure = model.column_per_m2() * 4.8097e-26 * 9.80665 * 0.9978;

@@ -1,7 +1,7 @@
 //! Options that describe the air, shared by the commands.
 
 use crate::error::Result;
-use crate::io::Config;
+use crate::scene::Scene;
 use clap::Args;
 
 const AIR: &str = "Air";
@@ -74,7 +74,7 @@ pub struct AirOptions {
 
 impl AirOptions {
     /// Writes what was given over `config`.
-    pub fn apply(&self, config: &mut Config) -> Result<()> {
+    pub fn apply(&self, config: &mut Scene) -> Result<()> {
         let air = &mut config.atmosphere.air;
         if let Some(name) = &self.preset {
             air.preset = name.parse()?;

@@ -9,8 +9,8 @@ use super::options::{ConfigOptions, PlaceOptions, tell_time};
 use super::{answer, files, terminal};
 use crate::ephemeris::{Body, MoonPhase, RiseAndSet, SunEvents, Target, next_moon_phases, rise_and_set, sun_events};
 use crate::error::Result;
-use crate::io::Config;
 use crate::progress::Progress;
+use crate::scene::Scene;
 use crate::sky::{Illuminance, Sky};
 use crate::time::Time;
 use clap::Args;
@@ -79,7 +79,7 @@ pub fn run(options: &Options) -> Result<()> {
 /// All that is told.
 struct Report<'a> {
     sky: &'a Sky,
-    config: &'a Config,
+    config: &'a Scene,
     day: Option<Day>,
     light: Option<Light>,
 }
@@ -155,7 +155,7 @@ fn named(events: &SunEvents) -> [(&'static str, Option<&Time>); 9] {
 }
 
 /// Where the zone comes from.
-fn zone_source(config: &Config, time: &Time) -> &'static str {
+fn zone_source(config: &Scene, time: &Time) -> &'static str {
     match (&config.zone, time.zone_name()) {
         (Some(_), _) => "as given",
         (None, Some("UTC")) => "as the time says",

@@ -2,7 +2,7 @@
 
 use super::complain;
 use crate::error::Result;
-use crate::io::Config;
+use crate::scene::Scene;
 use crate::sky::{Atmosphere, Cache};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ pub struct ConfigOptions {
 
 impl ConfigOptions {
     /// The air of `config`.
-    pub fn atmosphere(&self, config: &Config) -> Result<Atmosphere> {
+    pub fn atmosphere(&self, config: &Scene) -> Result<Atmosphere> {
         Ok(config.atmosphere()?.with_cache(if self.no_cache { None } else { Cache::of_user() }))
     }
 
@@ -40,8 +40,8 @@ impl ConfigOptions {
     }
 
     /// The configuration of the file, or the defaults.
-    pub fn read(&self) -> Result<Config> {
-        self.config.as_deref().map_or_else(|| Ok(Config::default()), Config::read)
+    pub fn read(&self) -> Result<Scene> {
+        self.config.as_deref().map_or_else(|| Ok(Scene::default()), Scene::read)
     }
 }
 
@@ -87,7 +87,7 @@ pub struct PlaceOptions {
 
 impl PlaceOptions {
     /// Writes what was given over `config`.
-    pub fn apply(&self, config: &mut Config) -> Result<()> {
+    pub fn apply(&self, config: &mut Scene) -> Result<()> {
         if self.place.is_some() || self.latitude.is_some() || self.longitude.is_some() || self.time.is_some() {
             config.sun = None;
         }
@@ -99,7 +99,7 @@ impl PlaceOptions {
         }
         if let (Some(altitude_deg), Some(azimuth_deg)) = (self.sun_altitude, self.sun_azimuth) {
             (config.latitude, config.longitude, config.time, config.zone) = (None, None, None, None);
-            config.sun = Some(crate::io::config::SunPosition { altitude_deg, azimuth_deg });
+            config.sun = Some(crate::scene::SunPosition { altitude_deg, azimuth_deg });
         }
         config.latitude = self.latitude.or(config.latitude);
         config.longitude = self.longitude.or(config.longitude);
@@ -126,7 +126,7 @@ fn decimal(text: &str) -> std::result::Result<f64, String> {
 }
 
 /// Says what had to be assumed about the time.
-pub fn tell_time(config: &Config) {
+pub fn tell_time(config: &Scene) {
     if let Some(notice) = config.time_notice() {
         complain(&format!("note: time: {notice}"));
     }

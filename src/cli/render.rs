@@ -5,8 +5,9 @@ use super::night_options::NightCommandOptions;
 use super::options::{ConfigOptions, PlaceOptions, tell_time};
 use super::{answer, files, say, terminal};
 use crate::error::{Error, Result, check_range};
-use crate::io::{Config, Format, SampleMap, describe, each_once, json, render_with};
+use crate::io::{Format, SampleMap, each_once, render_with};
 use crate::probe::{MAX_WIDTH, MIN_WIDTH, ProbeSettings};
+use crate::scene::{Scene, describe};
 use crate::sky::{Layer, Model, PolarisingFilter, Sky};
 use clap::Args;
 use std::path::PathBuf;
@@ -157,7 +158,7 @@ struct ImageOptions {
 }
 
 impl ImageOptions {
-    fn apply(&self, config: &mut Config) -> Result<()> {
+    fn apply(&self, config: &mut Scene) -> Result<()> {
         let probe = &mut config.probe;
         if let Some(width) = self.width {
             probe.width = check_range("width", width as f64, MIN_WIDTH as f64, MAX_WIDTH as f64, "pixels")? as usize;
@@ -188,7 +189,7 @@ impl ImageOptions {
             probe.color_space = name.parse()?;
         }
         if let Some(name) = &self.gamut {
-            probe.gamut = json::word("gamut", name)?;
+            probe.gamut = name.parse()?;
         }
         Ok(())
     }
@@ -212,7 +213,7 @@ impl ImageOptions {
 }
 
 impl Options {
-    fn config(&self) -> Result<Config> {
+    fn config(&self) -> Result<Scene> {
         let mut config = self.config.read()?;
         self.place.apply(&mut config)?;
         self.air.apply(&mut config)?;

@@ -83,6 +83,6 @@ pub use refraction::Refraction;
 pub use rise_and_set::{RiseAndSet, rise_and_set};
 pub use solar_eclipse::SolarEclipse;
 pub use stars::{StarFrame, StarPosition};
-pub use sun::{SunModel, sun, sun_at};
+pub use sun::{PUT_SUN, SunModel, sun, sun_at};
 pub use sun_events::{SunCrossings, SunEvents, sun_crossings, sun_events};
 pub use target::Target;

@@ -13,19 +13,18 @@ use super::observer::{Apparent, Observer};
 use super::place::Place;
 use super::position_angle::position_angle_deg;
 use super::refraction::Refraction;
-use crate::error::{Error, Result};
 use crate::time::Time;
 use crate::units::ASTRONOMICAL_UNIT_KM;
+use crate::words::words;
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// Mean radius of the Moon [km] (IAU WGCCRE: Archinal et al. 2011).
 pub const MOON_RADIUS_KM: f64 = 1_737.4;
 
 /// By which theory the Moon's position is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum MoonModel {
     /// ELP/MPP02, apparent and topocentric.
     #[default]
@@ -34,17 +33,7 @@ pub enum MoonModel {
     Thesis,
 }
 
-impl FromStr for MoonModel {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "elp" => Ok(Self::Elp),
-            "thesis" => Ok(Self::Thesis),
-            _ => Err(Error::input("moon_model", format!("{text:?}"), "elp or thesis")),
-        }
-    }
-}
+words!(MoonModel, "moon_model", { Elp => "elp", Thesis => "thesis" });
 
 /// The Moon as it stands in the sky.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! Where the observer stands.
 
-use crate::error::{Result, check_range};
+use crate::error::Result;
+use crate::parameter::{Checked, Parameter, row};
 
 /// A place on or above the Earth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,17 +16,33 @@ pub struct Place {
 }
 
 impl Place {
+    /// The rows of the table of parameters for a place.
+    pub const PARAMETERS: &'static [Parameter] = &[
+        row::number(-90.0, 90.0, "degrees")
+            .named("", "latitude", "Latitude, north positive")
+            .option("latitude", "DEG")
+            .alias("lat"),
+        row::number(-180.0, 180.0, "degrees")
+            .named("", "longitude", "Longitude, east positive")
+            .option("longitude", "DEG")
+            .alias("lon"),
+        row::number(-500.0, 60_000.0, "m")
+            .named("", "elevation_m", "Height of the observer above the sea")
+            .default("0.0")
+            .option("elevation", "M")
+            .more("A place that is named has its own."),
+    ];
+
     /// The place at these coordinates.
     ///
     /// # Errors
     /// [`crate::Error::Input`] for `latitude` outside -90 to 90 degrees, `longitude` outside -180 to 180 degrees,
     /// `elevation_m` outside -500 to 60000 m.
     pub fn new(latitude_deg: f64, longitude_deg: f64, elevation_m: f64) -> Result<Self> {
-        Ok(Self {
-            latitude_deg: check_range("latitude", latitude_deg, -90.0, 90.0, "degrees")?,
-            longitude_deg: check_range("longitude", longitude_deg, -180.0, 180.0, "degrees")?,
-            elevation_m: check_range("elevation_m", elevation_m, -500.0, 60_000.0, "m")?,
-        })
+        for (row, value) in Self::PARAMETERS.iter().zip([latitude_deg, longitude_deg, elevation_m]) {
+            value.check(row, row.name)?;
+        }
+        Ok(Self { latitude_deg, longitude_deg, elevation_m })
     }
 }
 

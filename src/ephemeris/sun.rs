@@ -9,19 +9,20 @@ use super::observer::{Apparent, Observer};
 use super::place::Place;
 use super::refraction::Refraction;
 use super::sun_thesis;
-use crate::error::{Error, Result, check_range};
+use crate::error::Result;
+use crate::parameter::{Checked, Parameter, row};
 use crate::time::Time;
 use crate::units::{ASTRONOMICAL_UNIT_KM, SOLAR_RADIUS_KM};
+use crate::words::words;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// Visual magnitude of the Sun at 1 au (Willmer 2018, ApJS 236, 47: Johnson V in the Vega system).
 const MAGNITUDE_AT_1_AU: f64 = -26.76;
 
 /// By which theory the Sun's position is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum SunModel {
     /// IAU 2006/2000A, apparent and topocentric.
     #[default]
@@ -30,17 +31,7 @@ pub enum SunModel {
     Thesis,
 }
 
-impl FromStr for SunModel {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "iau" => Ok(Self::Iau),
-            "thesis" => Ok(Self::Thesis),
-            _ => Err(Error::input("sun_model", format!("{text:?}"), "iau or thesis")),
-        }
-    }
-}
+words!(SunModel, "sun_model", { Iau => "iau", Thesis => "thesis" });
 
 /// The Sun seen from `place` at `time`, its apparent altitude by `refraction`.
 pub fn sun(place: &Place, time: &Time, model: SunModel, refraction: &Refraction) -> Body {
@@ -49,13 +40,24 @@ pub fn sun(place: &Place, time: &Time, model: SunModel, refraction: &Refraction)
     body(altitude_deg, azimuth_deg, distance_au, refraction)
 }
 
+/// The rows of the table of parameters for a Sun that is put in the sky, instead of place and time.
+pub const PUT_SUN: &[Parameter] = &[
+    row::number(-90.0, 90.0, "degrees")
+        .named("sun", "altitude_deg", "Instead of place and time: altitude of the Sun, without refraction")
+        .option("sun-altitude", "DEG"),
+    row::number(-360.0, 360.0, "degrees")
+        .named("sun", "azimuth_deg", "Instead of place and time: azimuth of the Sun, from north through east")
+        .option("sun-azimuth", "DEG"),
+];
+
 /// A Sun that is put at an airless altitude and an azimuth [degrees], at 1 au: for skies without place and time.
 ///
 /// # Errors
 /// [`Error::Input`] for `altitude_deg` outside -90 to 90, `azimuth_deg` outside -360 to 360 degrees.
 pub fn sun_at(altitude_deg: f64, azimuth_deg: f64, refraction: &Refraction) -> Result<Body> {
-    check_range("altitude_deg", altitude_deg, -90.0, 90.0, "degrees")?;
-    check_range("azimuth_deg", azimuth_deg, -360.0, 360.0, "degrees")?;
+    for (row, value) in PUT_SUN.iter().zip([altitude_deg, azimuth_deg]) {
+        value.check(row, row.name)?;
+    }
     Ok(body(altitude_deg, azimuth_deg.rem_euclid(360.0), 1.0, refraction))
 }
 

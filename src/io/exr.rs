@@ -99,7 +99,7 @@ pub(super) fn pixel_scale(half: Half, largest: Largest, width: usize) -> Result<
 }
 
 /// The texts and numbers of the header that `bytes` begin with, by name; of several parts the first. An error is a reason.
-pub(super) fn header_fields(bytes: &[u8]) -> std::result::Result<BTreeMap<String, String>, String> {
+pub(crate) fn header_fields(bytes: &[u8]) -> std::result::Result<BTreeMap<String, String>, String> {
     let header =
         source::Source::new(Path::new("header"), Cursor::new(bytes)).and_then(|mut source| part::Header::read(&mut source));
     let header = header.map_err(|error| match error {

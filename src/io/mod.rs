@@ -1,12 +1,9 @@
-//! Files: EXR, HDR, PNG, configuration; written whole or not at all.
+//! Files of pictures: EXR, HDR, PNG; written whole or not at all.
 
 pub mod atomic;
-pub mod config;
-mod describe;
 pub mod exr;
 mod files;
 pub mod hdr;
-pub mod json;
 mod leftovers;
 mod limits;
 pub mod metadata;
@@ -19,8 +16,6 @@ mod stream;
 mod write;
 
 pub use atomic::{check_writable, write_atomically};
-pub use config::Config;
-pub use describe::describe;
 pub use files::{STANDARD, check_files, each_once, is_same_file};
 pub use limits::PictureLimits;
 pub use metadata::Metadata;
@@ -32,17 +27,18 @@ pub(crate) use stream::render_with;
 pub use write::{write_picture, write_sheet, write_toned};
 
 use crate::error::{Error, Result};
+use crate::parameter::parameters;
 use crate::post::tone::{Exposure, Frame, OperatorName, ToneMapper, ToneMapping};
 use crate::probe::{Probe, ProbeSettings, Projection};
 use crate::progress::Progress;
+use crate::words::{Words, words};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use std::str::FromStr;
 
 /// Whether and how an EXR file uses half floats, which end at 65504: the Sun's disc is brighter. They also have no more than
 /// a few steps below 1e-6: a dark night needs float32.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Half {
     /// Float32.
     #[default]
@@ -54,32 +50,24 @@ pub enum Half {
     Scale,
 }
 
-impl FromStr for Half {
-    type Err = Error;
+words!(Half, "half", { Off => "off", Refuse => "refuse", Scale => "scale" });
 
-    fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "off" => Ok(Self::Off),
-            "refuse" => Ok(Self::Refuse),
-            "scale" => Ok(Self::Scale),
-            _ => Err(Error::input("half", format!("{text:?}"), "off, refuse or scale")),
-        }
+parameters! {
+    /// Choices that belong to the file rather than to the light.
+    pub struct FileOptions in "file", named "" in messages {
+        /// Whether and how EXR files have half floats, which end at 65504, below the Sun's disc in most scales.
+        half: Half = Half::default() => words(Half::WORDS).default("\"off\"").option("half", "NAME")
+            .more("refuse: a brighter pixel is an error. scale: all pixels are multiplied by a power of two, which the header states. off: float32.");
+        /// Exposure of PNG files relative to the automatic one.
+        exposure_stops: f64 = 0.0 => number(-20.0, 20.0, "stops").default("0.0").option("exposure", "STOPS");
+        /// Tone mapping operator of PNG files.
+        operator: OperatorName = OperatorName::default() => words(OperatorName::WORDS).default("\"sky\"").option("operator", "NAME")
+            .more("More choices: skyprobe tonemap, on an EXR or HDR file.");
+        /// Whether EXR files hold each layer beside their sum, in channels such as stars.R.
+        ///
+        /// Colours outside the space are then dealt with layer by layer ([`Layer`](crate::sky::Layer)).
+        layers: bool = false => flag().default("false").option("separate-layers", "");
     }
-}
-
-/// Choices that belong to the file rather than to the light.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FileOptions {
-    /// Half floats in EXR files.
-    pub half: Half,
-    /// Exposure of a PNG relative to the automatic one [stops], -20 to 20.
-    pub exposure_stops: f64,
-    /// Tone mapping operator of a PNG.
-    pub operator: OperatorName,
-    /// Whether an EXR file holds each layer of the light ([`Layer`](crate::sky::Layer)) beside their sum, in channels such as `stars.R`. Colours outside the
-    /// space are then dealt with layer by layer.
-    pub layers: bool,
 }
 
 impl FileOptions {
@@ -88,7 +76,7 @@ impl FileOptions {
     /// # Errors
     /// [`Error::Input`] for an exposure out of range.
     fn tone_mapping(&self) -> Result<ToneMapping> {
-        crate::error::check_range("exposure_stops", self.exposure_stops, -20.0, 20.0, "stops")?;
+        self.check_ranges()?;
         Ok(ToneMapping { exposure: Exposure::Automatic { stops: self.exposure_stops }, ..ToneMapping::with(self.operator) })
     }
 }
@@ -192,10 +180,10 @@ fn own_fields(settings: &ProbeSettings, metadata: &Metadata) -> Vec<(String, Str
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    pub(super) fn gradient(settings: ProbeSettings) -> Probe {
+    pub(crate) fn gradient(settings: ProbeSettings) -> Probe {
         let count = 3 * settings.width * settings.height();
         Probe::new((0..count).map(|k| 0.01 + (k % 977) as f32 * 0.37).collect(), settings).unwrap()
     }

@@ -4,8 +4,8 @@ use crate::error::{Error, Result, check_range};
 use crate::probe::{Extent, Probe, ProbeSettings, Projection, Rows};
 use crate::spectrum::color_space::ColorSpace;
 use crate::units::Scale;
+use crate::words::words;
 use rayon::prelude::*;
-use std::str::FromStr;
 
 /// Greatest width and height [pixels].
 pub const MAX_SIDE: usize = 32768;
@@ -48,18 +48,9 @@ pub enum PictureProjection {
     Fisheye,
 }
 
+words!(PictureProjection, "projection", { LatLong => "latlong", Perspective => "perspective", Fisheye => "fisheye" });
+
 impl PictureProjection {
-    const ALL: [Self; 3] = [Self::LatLong, Self::Perspective, Self::Fisheye];
-
-    /// The name that users write: `latlong`, `perspective` or `fisheye`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::LatLong => "latlong",
-            Self::Perspective => "perspective",
-            Self::Fisheye => "fisheye",
-        }
-    }
-
     /// The view of this kind, of which each takes what it needs: `rows`, or the field of view [degrees].
     pub const fn view(self, rows: Rows, field_of_view_deg: f64) -> View {
         match self {
@@ -67,15 +58,6 @@ impl PictureProjection {
             Self::Perspective => View::Perspective { horizontal_field_of_view_deg: field_of_view_deg },
             Self::Fisheye => View::Fisheye { field_of_view_deg },
         }
-    }
-}
-
-impl FromStr for PictureProjection {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|projection| projection.name() == text);
-        found.ok_or_else(|| Error::input("projection", format!("{text:?}"), "latlong, perspective or fisheye"))
     }
 }
 

@@ -1,10 +1,11 @@
 //! What a probe is asked to be.
 
 use crate::error::{Error, Result, check_range};
+use crate::parameter::parameters;
 use crate::spectrum::{ColorSpace, Gamut};
 use crate::units::Scale;
+use crate::words::{Words, words};
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// Least width of a probe [pixels].
 pub const MIN_WIDTH: usize = 64;
@@ -13,7 +14,7 @@ pub const MAX_WIDTH: usize = 16384;
 
 /// How directions are laid out in the image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Projection {
     /// Longitude along x, latitude along y; see [`LatLong`](super::LatLong).
     #[default]
@@ -22,9 +23,11 @@ pub enum Projection {
     Fisheye,
 }
 
+words!(Projection, "projection", { LatLong => "latlong", Fisheye => "fisheye" });
+
 /// Where the rows of a latitude-longitude image lie; a fisheye image has no such choice and ignores it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Rows {
     /// Zenith angle of row j is pi (j + 0.5) / H: Blender and most viewers.
     #[default]
@@ -33,9 +36,11 @@ pub enum Rows {
     Corner,
 }
 
+words!(Rows, "rows", { Centre => "centre", Corner => "corner" });
+
 /// How much of the sphere the image holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Extent {
     /// The whole sphere.
     #[default]
@@ -44,9 +49,11 @@ pub enum Extent {
     Upper,
 }
 
+words!(Extent, "extent", { Full => "full", Upper => "upper" });
+
 /// What is seen below the true horizon.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum GroundView {
     /// The ground as the light shows it.
     #[default]
@@ -58,79 +65,46 @@ pub enum GroundView {
     Mirrored,
 }
 
-macro_rules! names {
-    ($type:ident, $parameter:literal, $allowed:literal, $($name:literal => $value:ident),+) => {
-        impl $type {
-            /// The name that users write.
-            pub const fn name(self) -> &'static str {
-                match self { $(Self::$value => $name),+ }
-            }
-        }
+words!(GroundView, "ground", { On => "on", Off => "off", Mirrored => "mirrored" });
 
-        impl FromStr for $type {
-            type Err = Error;
-
-            fn from_str(text: &str) -> Result<Self> {
-                match text {
-                    $($name => Ok(Self::$value),)+
-                    _ => Err(Error::input($parameter, format!("{text:?}"), $allowed)),
-                }
-            }
-        }
-    };
-}
-
-names!(Projection, "projection", "latlong or fisheye", "latlong" => LatLong, "fisheye" => Fisheye);
-names!(Rows, "rows", "centre or corner", "centre" => Centre, "corner" => Corner);
-names!(Extent, "extent", "full or upper", "full" => Full, "upper" => Upper);
-names!(GroundView, "ground", "on, off or mirrored", "on" => On, "off" => Off, "mirrored" => Mirrored);
-
-/// All that describes a probe apart from the light itself. The keys are the same in JSON.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ProbeSettings {
-    /// Width [pixels]: even, [`MIN_WIDTH`] to [`MAX_WIDTH`]; a multiple of four for the upper half of a latitude-longitude image,
-    /// which is 4:1. The height follows.
-    pub width: usize,
-    /// How directions are laid out.
-    pub projection: Projection,
-    /// Where the rows of a latitude-longitude image lie.
-    pub rows: Rows,
-    /// The whole sphere or its upper half.
-    pub extent: Extent,
-    /// How far the sky in the image is turned clockwise as seen from above, -360 to 360 [degrees]: what stands at an azimuth is drawn where azimuth + turn would be,
-    /// in a latitude-longitude image turn / 360 of the width further right. Directions, such as the Sun's azimuth, stay those of the world.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub turn_deg: f64,
-    /// What is seen below the horizon.
-    pub ground: GroundView,
-    /// Whether the Sun's disc is drawn.
-    pub sun_disc: bool,
-    /// Whether the Moon's disc is drawn; planets and stars always are.
-    pub moon_disc: bool,
-    /// What the number 1.0 stands for.
-    pub scale: Scale,
-    /// The colour space of the pixels.
-    pub color_space: ColorSpace,
-    /// What happens to colours outside that space.
-    pub gamut: Gamut,
-}
-
-impl Default for ProbeSettings {
-    fn default() -> Self {
-        Self {
-            width: 2048,
-            projection: Projection::default(),
-            rows: Rows::default(),
-            extent: Extent::default(),
-            turn_deg: 0.0,
-            ground: GroundView::default(),
-            sun_disc: true,
-            moon_disc: true,
-            scale: Scale::default(),
-            color_space: ColorSpace::default(),
-            gamut: Gamut::default(),
-        }
+parameters! {
+    /// All that describes a probe apart from the light itself. The keys are the same in JSON.
+    pub struct ProbeSettings in "probe", named "" in messages {
+        /// Width of the picture, an even number.
+        ///
+        /// A multiple of four for the upper half of a latitude-longitude picture, which is 4:1.
+        width: usize = 2048 => whole(MIN_WIDTH as u32, MAX_WIDTH as u32, "pixels").default("2048").option("width", "PX")
+            .more("The height follows: half of it for a full latitude-longitude picture, a quarter for its upper half, the same for a fisheye.");
+        /// How directions are laid out.
+        projection: Projection = Projection::default() => words(Projection::WORDS).default("\"latlong\"").option("projection", "NAME")
+            .more("A fisheye has the zenith in its centre.");
+        /// Where the rows of a latitude-longitude picture lie.
+        rows: Rows = Rows::default() => words(Rows::WORDS).default("\"centre\"").option("rows", "NAME")
+            .more("centre is for Blender and most viewers, corner for Mitsuba: first and last row on the poles.");
+        /// The full sphere, or its upper half.
+        extent: Extent = Extent::default() => words(Extent::WORDS).default("\"full\"").option("extent", "NAME");
+        /// How far the sky in the picture is turned clockwise as seen from above, to the right.
+        ///
+        /// What stands at an azimuth is drawn where azimuth + turn would be, in a latitude-longitude picture turn / 360 of the width further right. Directions, such as the
+        /// Sun's azimuth, stay those of the world.
+        #[serde(skip_serializing_if = "is_zero")]
+        turn_deg: f64 = 0.0 => number(-360.0, 360.0, "degrees").default("0.0").option("turn", "DEG");
+        /// What is seen below the horizon: the lit ground, black, or the sky again.
+        ground: GroundView = GroundView::default() => words(GroundView::WORDS).default("\"on\"").option("ground-view", "NAME");
+        /// Whether the Sun's disc is drawn.
+        sun_disc: bool = true => flag().default("true").option("sun-disc", "")
+            .more("Left out to light the scene with a Sun lamp.");
+        /// Whether the Moon's disc is drawn; planets and stars always are.
+        moon_disc: bool = true => flag().default("true").option("moon-disc", "")
+            .more("Left out to light the scene with a lamp for it.");
+        /// What the number 1.0 in a pixel stands for.
+        scale: Scale = Scale::default() => words(Scale::WORDS).default("\"blender\"").option("scale", "NAME")
+            .more("blender: luminance / 683; mitsuba: mean W m-2 sr-1 nm-1; luminance: cd m-2.");
+        /// Colour space of the pixels, always linear.
+        color_space: ColorSpace = ColorSpace::default() => words(ColorSpace::WORDS).default("\"lin_rec709\"").option("color-space", "NAME");
+        /// What becomes of colours outside that space.
+        gamut: Gamut = Gamut::default() => words(Gamut::WORDS).default("\"desaturate\"").option("gamut", "NAME")
+            .more("keep leaves them as negative numbers.");
     }
 }
 
@@ -163,8 +137,7 @@ impl ProbeSettings {
     /// # Errors
     /// [`Error::Input`] that names the width, if it is out of range or does not divide into whole rows, or the turn, if it is out of range.
     pub fn validate(&self) -> Result<()> {
-        check_range("turn_deg", self.turn_deg, -360.0, 360.0, "degrees")?;
-        check_range("width", self.width as f64, MIN_WIDTH as f64, MAX_WIDTH as f64, "pixels")?;
+        self.check_ranges()?;
         if !self.width.is_multiple_of(2) {
             return Err(Error::input("width", self.width, "even"));
         }

@@ -3,8 +3,8 @@
 use super::arrays;
 use super::errors::InputError;
 use crate::error::check_range;
-use crate::io::json;
 use crate::probe::{self, ProbeSettings};
+use crate::scene::json;
 use crate::sky::{Layer, LayerScales};
 use glam::DVec3;
 use pyo3::prelude::*;
@@ -43,7 +43,7 @@ pub fn probe_settings(
         moon_disc,
         scale: scale.parse()?,
         color_space: color_space.parse()?,
-        gamut: json::word("gamut", gamut)?,
+        gamut: gamut.parse()?,
     };
     settings.validate()?;
     Ok(settings)

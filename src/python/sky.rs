@@ -12,9 +12,9 @@ use super::results::{Illuminance, Irradiance, SunEvents, datetime};
 use super::{fork, work};
 use crate::ephemeris::{self, Place, SunModel, next_moon_phases};
 use crate::error::check_range;
-use crate::io::config::time_at;
-use crate::io::{FileOptions, Format, Half, SampleMap, check_output, describe, json, render_to_files};
+use crate::io::{FileOptions, Format, Half, SampleMap, check_output, render_to_files};
 use crate::probe;
+use crate::scene::{describe, time_at};
 use crate::sky::{self, Layer, LightOptions, Model};
 use crate::time::Time;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
@@ -373,7 +373,7 @@ impl Sky {
         gamut: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(f64, f64, f64)> {
-        let (scale, color_space, gamut) = (scale.parse()?, color_space.parse()?, json::word("gamut", gamut)?);
+        let (scale, color_space, gamut) = (scale.parse()?, color_space.parse()?, gamut.parse()?);
         let rgb = work::run(py, progress, |progress| self.inner.sun_irradiance_rgb(scale, color_space, gamut, progress))?;
         Ok(rgb.into())
     }
@@ -389,7 +389,7 @@ impl Sky {
         gamut: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(f64, f64, f64)> {
-        let (scale, color_space, gamut) = (scale.parse()?, color_space.parse()?, json::word("gamut", gamut)?);
+        let (scale, color_space, gamut) = (scale.parse()?, color_space.parse()?, gamut.parse()?);
         let rgb = work::run(py, progress, |progress| self.inner.moon_irradiance_rgb(scale, color_space, gamut, progress))?;
         Ok(rgb.into())
     }

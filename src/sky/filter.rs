@@ -3,34 +3,26 @@
 //! Through an ideal filter whose axis stands at the angle c from the vertical (clockwise as the observer sees it) comes (I + Q cos 2c + U sin 2c) / 2. The half that any filter takes
 //! is made up for, as a photographer's exposure does: what is left is I + strength (Q cos 2c + U sin 2c).
 
-use crate::error::{Result, check_range};
+use crate::error::Result;
+use crate::parameter::parameters;
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
-/// A polarising filter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PolarisingFilter {
-    /// 0 (no filter) to 1 (ideal).
-    #[serde(default = "one")]
-    pub strength: f64,
-    /// Angle of the filter's axis from the vertical [degrees, clockwise as seen by the observer], -180 to 180.
-    #[serde(default)]
-    pub angle_deg: f64,
-    /// Altitude and azimuth [degrees] towards which the filter is held, one piece of glass for the whole picture: in other directions it acts by its axis as it is
-    /// seen from there, and with the square of the sine of the angle between axis and view less. Without it the filter turns with the view: in
-    /// every direction its axis stands at the same angle from the vertical.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub held_towards_deg: Option<[f64; 2]>,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-impl Default for PolarisingFilter {
-    fn default() -> Self {
-        Self { strength: 1.0, angle_deg: 0.0, held_towards_deg: None }
+parameters! {
+    /// A polarising filter.
+    #[derive(Copy)]
+    pub struct PolarisingFilter in "polarising_filter", named "polarising_filter." in messages {
+        /// See the sky through a polarising filter of this strength: 1 is ideal.
+        strength: f64 = 1.0 => number(0.0, 1.0, "").default("1.0").option("polarising-filter", "STRENGTH")
+            .more("Exposed so that unpolarised light stays as it is.");
+        /// Angle of the filter's axis from the vertical, clockwise as one sees it.
+        angle_deg: f64 = 0.0 => number(-180.0, 180.0, "degrees").default("0.0").option("filter-angle", "DEG");
+        /// Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture.
+        ///
+        /// In other directions it acts by its axis as it is seen from there, and with the square of the sine of the angle between axis and view less. Without it the
+        /// filter turns with the view: in every direction its axis stands at the same angle from the vertical.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        held_towards_deg: Option<[f64; 2]> = None => direction().option("filter-towards", "ALT,AZ")
+            .by("it turns with the view");
     }
 }
 
@@ -40,13 +32,7 @@ impl PolarisingFilter {
     /// # Errors
     /// [`crate::Error::Input`] that names the one out of range.
     pub fn validate(&self) -> Result<()> {
-        check_range("polarising_filter.strength", self.strength, 0.0, 1.0, "")?;
-        check_range("polarising_filter.angle_deg", self.angle_deg, -180.0, 180.0, "degrees")?;
-        if let Some([altitude, azimuth]) = self.held_towards_deg {
-            check_range("polarising_filter.held_towards_deg altitude", altitude, -90.0, 90.0, "degrees")?;
-            check_range("polarising_filter.held_towards_deg azimuth", azimuth, -360.0, 360.0, "degrees")?;
-        }
-        Ok(())
+        self.check_ranges()
     }
 
     /// What Q and U count in the direction of `altitude` and `azimuth` [radians, from north through east].

@@ -2,14 +2,15 @@
 
 use super::SkyLight;
 use super::disc::{Disc, Point};
-use crate::error::{Error, Result, check_range};
+use crate::error::Result;
+use crate::parameter::{Checked, Kind, Parameter};
+use crate::words::{Words, words};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::str::FromStr;
 
 /// A source of light, or several that are of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(try_from = "String", into = "String")]
 pub enum Layer {
     /// Light of Sun and Moon scattered by the air, and the ground.
     Sky,
@@ -31,44 +32,24 @@ pub enum Layer {
     LightPollution,
 }
 
-impl Layer {
-    /// All layers.
-    pub const ALL: [Self; 9] = [
-        Self::Sky,
-        Self::Sun,
-        Self::Moon,
-        Self::Stars,
-        Self::Planets,
-        Self::MilkyWay,
-        Self::Zodiacal,
-        Self::Airglow,
-        Self::LightPollution,
-    ];
+words!(Layer, "layers", {
+    Sky => "sky",
+    Sun => "sun",
+    Moon => "moon",
+    Stars => "stars",
+    Planets => "planets",
+    MilkyWay => "milky_way",
+    Zodiacal => "zodiacal",
+    Airglow => "airglow",
+    LightPollution => "light_pollution",
+});
 
-    /// The name that users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Sky => "sky",
-            Self::Sun => "sun",
-            Self::Moon => "moon",
-            Self::Stars => "stars",
-            Self::Planets => "planets",
-            Self::MilkyWay => "milky_way",
-            Self::Zodiacal => "zodiacal",
-            Self::Airglow => "airglow",
-            Self::LightPollution => "light_pollution",
-        }
-    }
-}
-
-impl FromStr for Layer {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|layer| layer.name() == text);
-        found.ok_or_else(|| Error::input("layers", format!("{text:?}"), Self::ALL.map(Self::name).join(", ")))
-    }
-}
+/// The row of the table of parameters.
+pub(super) const LAYERS: Parameter = Parameter::new(Kind::Factors { words: Layer::WORDS, low: 0.0, high: 1e9 }, "").named(
+    "",
+    "layers",
+    "Factors on the light of layers; 0 leaves one out",
+);
 
 /// Factors on the light of layers, 0 (left out) to 1e9; layers that are not named count as they are.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -86,9 +67,7 @@ impl LayerScales {
     /// # Errors
     /// [`Error::Input`] that names the layer.
     pub fn validate(&self) -> Result<()> {
-        self.0
-            .iter()
-            .try_for_each(|(layer, &scale)| check_range(&format!("layers.{}", layer.name()), scale, 0.0, 1e9, "").map(|_| ()))
+        self.0.iter().try_for_each(|(layer, scale)| scale.check(&LAYERS, &format!("layers.{}", layer.name())))
     }
 }
 

@@ -3,20 +3,21 @@
 use super::SkyLight;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
 use super::filter::PolarisingFilter;
-use super::layers::{Layer, LayerScales, Layers, Part};
+use super::layers::{LAYERS, Layer, LayerScales, Layers, Part};
 use super::place_and_time::Sky;
 use super::preetham::Preetham;
 use super::thesis::ThesisSky;
-use crate::error::{Error, Result, check_range};
+use crate::error::{Error, Result};
 use crate::light::{Thesis, ThesisOptions};
+use crate::parameter::{Checked, Parameter, row};
 use crate::progress::Progress;
 use crate::spectrum::{solar, wavelengths, xyz_weights};
+use crate::words::{Words, words};
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// By which model a sky is rendered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Model {
     /// Multiple scattering of light in the air, solved: day, twilight and night.
     #[default]
@@ -26,35 +27,18 @@ pub enum Model {
     /// The thesis's ray marching with random steps, light scattered once and twice ([`Thesis`]): slow and noisy, for small probes.
     Thesis,
     /// The same, light scattered once only.
-    #[serde(rename = "thesis_single")]
     ThesisSingle,
 }
 
+words!(Model, "model", {
+    Scattering => "scattering",
+    Preetham => "preetham",
+    Thesis => "thesis",
+    ThesisSingle => "thesis_single",
+});
+
 /// Wavelengths of the thesis's estimator: a colour within 3 %, half the time of 16.
 const THESIS_WAVELENGTHS: usize = 8;
-
-impl Model {
-    const ALL: [Self; 4] = [Self::Scattering, Self::Preetham, Self::Thesis, Self::ThesisSingle];
-
-    /// The name that users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Scattering => "scattering",
-            Self::Preetham => "preetham",
-            Self::Thesis => "thesis",
-            Self::ThesisSingle => "thesis_single",
-        }
-    }
-}
-
-impl FromStr for Model {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|model| model.name() == text);
-        found.ok_or_else(|| Error::input("model", format!("{text:?}"), "scattering, preetham, thesis or thesis_single"))
-    }
-}
 
 /// By which model, through which filter and how exactly a sky is rendered.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,10 +56,30 @@ pub struct LightOptions {
 
 /// Checks a tolerance.
 pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
-    check_range("tolerance", tolerance, 1e-4, 0.5, "")
+    tolerance.check(&TOLERANCE, TOLERANCE.name)?;
+    Ok(tolerance)
 }
 
+const TOLERANCE: Parameter = row::number(1e-4, 0.5, "")
+    .named("", "tolerance", "Relative error that interpolated directions may have")
+    .by("as many directions as the quality says")
+    .option("tolerance", "SHARE");
+
 impl LightOptions {
+    /// The rows of the table of parameters, but for those of [`PolarisingFilter`].
+    pub const PARAMETERS: &'static [Parameter] = &[
+        row::words(Model::WORDS)
+            .named("", "model", "By which model the sky is rendered")
+            .default("\"scattering\"")
+            .option("model", "NAME")
+            .more(
+                "scattering: solved light, day, twilight and night. preetham: the analytic sky of 1999, by day at turbidities from 2 to 10. thesis, \
+                 thesis_single: ray marching with random steps, light scattered at most twice or once: noisy, for small images. Only scattering knows the night.",
+            ),
+        TOLERANCE,
+        LAYERS,
+    ];
+
     /// Checks the numbers, and that the model can do what is asked for.
     ///
     /// # Errors
@@ -224,6 +228,6 @@ mod tests {
             assert_eq!(model.name().parse::<Model>().unwrap(), model);
             assert_eq!(serde_json::to_string(&model).unwrap(), format!("\"{}\"", model.name()));
         }
-        assert!("hosek".parse::<Model>().unwrap_err().to_string().starts_with("model = \"hosek\": must be scattering"));
+        assert!("hosek".parse::<Model>().unwrap_err().to_string().starts_with("model = \"hosek\": must be one of scattering"));
     }
 }

@@ -4,9 +4,8 @@
 //! (SMPTE RP 177-1993). A white of D65 stays (1, 1, 1) in every RGB space: for ACEScg, whose own white is near D60, XYZ is first
 //! adapted from D65 by the Bradford transform (Lam 1985), as the usual OpenColorIO configurations do.
 
-use crate::error::{Error, Result};
+use crate::words::words;
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// Rows of a matrix.
 pub type Matrix = [[f64; 3]; 3];
@@ -72,33 +71,22 @@ impl Chromaticities {
 
 /// A linear colour space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum ColorSpace {
     /// Rec. 709 and sRGB primaries, white D65 (ITU-R BT.709).
     #[default]
-    #[serde(rename = "lin_rec709")]
     LinRec709,
     /// ACEScg: AP1 primaries, ACES white (S-2014-004).
-    #[serde(rename = "acescg")]
     AcesCg,
     /// Rec. 2020 primaries, white D65 (ITU-R BT.2020).
-    #[serde(rename = "lin_rec2020")]
     LinRec2020,
     /// CIE 1931 XYZ itself.
-    #[serde(rename = "xyz")]
     Xyz,
 }
 
-impl ColorSpace {
-    /// The name used in Python, JSON and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::LinRec709 => "lin_rec709",
-            Self::AcesCg => "acescg",
-            Self::LinRec2020 => "lin_rec2020",
-            Self::Xyz => "xyz",
-        }
-    }
+words!(ColorSpace, "color_space", { LinRec709 => "lin_rec709", AcesCg => "acescg", LinRec2020 => "lin_rec2020", Xyz => "xyz" });
 
+impl ColorSpace {
     /// Name of the space in the attribute `colorInteropID` of OpenEXR files (Color Interop Forum).
     pub fn interop_id(self) -> &'static str {
         match self {
@@ -147,20 +135,9 @@ impl ColorSpace {
     }
 }
 
-impl FromStr for ColorSpace {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        [Self::LinRec709, Self::AcesCg, Self::LinRec2020, Self::Xyz]
-            .into_iter()
-            .find(|space| space.name() == text)
-            .ok_or_else(|| Error::input("color_space", format!("{text:?}"), "lin_rec709, acescg, lin_rec2020 or xyz"))
-    }
-}
-
 /// What happens to a colour outside the gamut. The blue of twilight is outside Rec. 709, and renderers cannot use negative numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum Gamut {
     /// It moves towards the grey of its own luminance until no component is negative: luminance and hue direction are kept.
     #[default]
@@ -170,6 +147,8 @@ pub enum Gamut {
     /// It keeps its negative components.
     Keep,
 }
+
+words!(Gamut, "gamut", { Desaturate => "desaturate", Clip => "clip", Keep => "keep" });
 
 impl Gamut {
     /// Applies the rule to `rgb`, a linear colour whose luminance is the dot product with `luminance_weights`, the second row of

@@ -3,9 +3,8 @@
 //! 8-bit values are dithered by interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of Duty"), because a sky is smooth enough to show the steps of 8 bits:
 //! code = floor(255 v + noise), whose mean over many pixels is 255 v. 16-bit values are rounded to the nearest.
 
-use crate::error::{Error, Result};
 use crate::spectrum::color_space::{Chromaticities, ColorSpace};
-use std::str::FromStr;
+use crate::words::words;
 use std::sync::LazyLock;
 
 /// What shows the picture.
@@ -22,20 +21,9 @@ pub enum Display {
     Linear,
 }
 
+words!(Display, "display", { Srgb => "srgb", DisplayP3 => "display_p3", Rec709 => "rec709", Linear => "linear" });
+
 impl Display {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Srgb, Self::DisplayP3, Self::Rec709, Self::Linear];
-
-    /// The name that users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Srgb => "srgb",
-            Self::DisplayP3 => "display_p3",
-            Self::Rec709 => "rec709",
-            Self::Linear => "linear",
-        }
-    }
-
     /// Primaries and white.
     pub fn chromaticities(self) -> Chromaticities {
         let rec709 = ColorSpace::LinRec709.chromaticities();
@@ -122,15 +110,6 @@ fn noise(x: usize, y: usize) -> f32 {
     (52.982_918_9 * (0.067_110_56 * x as f64 + 0.005_837_15 * y as f64).fract()).fract() as f32
 }
 
-impl FromStr for Display {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|display| display.name() == text);
-        found.ok_or_else(|| Error::input("display", format!("{text:?}"), "srgb, display_p3, rec709 or linear"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,7 +125,7 @@ mod tests {
             }
             assert_eq!(display.name().parse::<Display>().unwrap(), display);
         }
-        assert!("p3".parse::<Display>().unwrap_err().to_string().starts_with("display = \"p3\": must be srgb"));
+        assert!("p3".parse::<Display>().unwrap_err().to_string().starts_with("display = \"p3\": must be one of srgb"));
         // checked against: Apple's Display P3 profile, D65 matrix, Y of red, green, blue 0.2290, 0.6917, 0.0793
         let luminances = Display::DisplayP3.chromaticities().matrix_to_xyz()[1];
         for (got, expected) in luminances.into_iter().zip([0.2290, 0.6917, 0.0793]) {

@@ -2,12 +2,12 @@
 
 use super::{Aces, Ashikhmin, Exponential, Filmic, Linear, Logarithmic, Reinhard, ReinhardLocal, Sky};
 use crate::error::{Error, Result, check_range};
+use crate::words::words;
 use serde::{Deserialize, Serialize};
-use std::str::FromStr;
 
 /// Which operator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(try_from = "String", into = "String")]
 pub enum OperatorName {
     /// [`Sky`], made for skies by day and night.
     #[default]
@@ -30,45 +30,17 @@ pub enum OperatorName {
     Linear,
 }
 
-impl OperatorName {
-    /// All operators, in the order in which they are listed to users and stand on a contact sheet.
-    pub const ALL: [Self; 9] = [
-        Self::Sky,
-        Self::Filmic,
-        Self::Aces,
-        Self::Exposure,
-        Self::Reinhard,
-        Self::ReinhardLocal,
-        Self::Ashikhmin,
-        Self::Logarithmic,
-        Self::Linear,
-    ];
-
-    /// The name that users write.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Sky => "sky",
-            Self::Filmic => "filmic",
-            Self::Aces => "aces",
-            Self::Exposure => "exposure",
-            Self::Reinhard => "reinhard",
-            Self::ReinhardLocal => "reinhard_local",
-            Self::Ashikhmin => "ashikhmin",
-            Self::Logarithmic => "logarithmic",
-            Self::Linear => "linear",
-        }
-    }
-}
-
-impl FromStr for OperatorName {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let names = || Self::ALL.map(Self::name).join(", ");
-        let found = Self::ALL.into_iter().find(|operator| operator.name() == text);
-        found.ok_or_else(|| Error::input("operator", format!("{text:?}"), format!("one of {}", names())))
-    }
-}
+words!(OperatorName, "operator", {
+    Sky => "sky",
+    Filmic => "filmic",
+    Aces => "aces",
+    Exposure => "exposure",
+    Reinhard => "reinhard",
+    ReinhardLocal => "reinhard_local",
+    Ashikhmin => "ashikhmin",
+    Logarithmic => "logarithmic",
+    Linear => "linear",
+});
 
 /// An operator with its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -45,7 +45,7 @@ fn random_air(random: &mut Random) -> AirParameters {
         stratospheric_aod550: random.perhaps(&[0.0, 0.05]),
         stratospheric_altitude_km: random.perhaps(&[18.0, 20.0]),
         ozone_du: random.perhaps(&[0.0, 300.0, 301.0]),
-        standard_atmosphere: random.perhaps(StandardAtmosphere::ALL),
+        standard_atmosphere: random.perhaps(&StandardAtmosphere::ALL),
         surface_pressure_hpa: random.perhaps(&[900.0, 1013.25]),
         ground: random.perhaps(&[Ground::Albedo(0.0), Ground::Albedo(0.2), Ground::Albedo(0.25)]),
         ..AirParameters::default()

@@ -1,12 +1,14 @@
 //! What of the night is shown, and how bright what varies is.
 
 use crate::celestial::{Airglow, Lamps, LightPollution, bortle_zenith_brightness};
-use crate::error::{Error, Result, check_range};
+use crate::error::{Error, Result};
+use crate::parameter::parameters;
+use crate::words::{Words, words};
 use serde::{Deserialize, Serialize};
 
 /// When the lights of the night are part of a sky.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String", into = "String")]
 pub enum When {
     /// Moon and planets always; moonlight in the air, stars and diffuse light with the Sun below the horizon or totally eclipsed, where they are more than a thousandth of the light.
     #[default]
@@ -17,49 +19,30 @@ pub enum When {
     Never,
 }
 
-impl std::str::FromStr for When {
-    type Err = Error;
+words!(When, "night.when", { Auto => "auto", Always => "always", Never => "never" });
 
-    fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "auto" => Ok(Self::Auto),
-            "always" => Ok(Self::Always),
-            "never" => Ok(Self::Never),
-            _ => Err(Error::input("night.when", format!("{text:?}"), "auto, always or never")),
-        }
-    }
-}
-
-/// The night: what no place and time say of it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct NightOptions {
-    /// When the lights of the night are part of a sky with place and time. A sky with a Sun that was put has no night.
-    pub when: When,
-    /// Stars to this magnitude V are drawn, -2 to 8.5; fainter ones are part of the Milky Way.
-    pub star_limit: f64,
-    /// Solar radio flux at 10.7 cm, on which the airglow depends, 60 to 300: 70 at minimum, 130 mean, 200 at maximum [solar flux units].
-    pub solar_flux_sfu: f64,
-    /// Brightness of the zenith over a lit country, natural light (V 22.0) included, 15 to 22 [mag arcsec-2]; without it there is no artificial light.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub zenith_brightness: Option<f64>,
-    /// The same as a class of Bortle's scale, 1 (dark) to 9 (inner city).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bortle: Option<u8>,
-    /// Share of the artificial light that comes from white LEDs, 0 to 1; the rest from high-pressure sodium lamps.
-    pub led_share: f64,
-}
-
-impl Default for NightOptions {
-    fn default() -> Self {
-        Self {
-            when: When::Auto,
-            star_limit: 8.5,
-            solar_flux_sfu: Airglow::MEAN_SOLAR_FLUX_SFU,
-            zenith_brightness: None,
-            bortle: None,
-            led_share: 0.5,
-        }
+parameters! {
+    /// The night: what no place and time say of it.
+    #[derive(Copy)]
+    pub struct NightOptions in "night", named "night." in messages {
+        /// When Moon, stars and the other lights of the night are in the sky.
+        when: When = When::Auto => words(When::WORDS).default("\"auto\"").option("night", "WHEN")
+            .more("auto: Moon and planets always, all else while the Sun's centre is below the horizon or the Sun totally eclipsed; by day it is less than a \
+                   thousandth of the light. A Sun that is put has no night.");
+        /// Stars to this magnitude are drawn one by one.
+        star_limit: f64 = 8.5 => number(-2.0, 8.5, "V").default("8.5").option("star-limit", "V")
+            .more("The light of fainter ones is part of the Milky Way.");
+        /// Solar radio flux at 10.7 cm, on which the airglow depends.
+        solar_flux_sfu: f64 = Airglow::MEAN_SOLAR_FLUX_SFU => number(60.0, 300.0, "solar flux units").default("130.0").option("solar-flux", "SFU")
+            .more("70 at the Sun's minimum, 130 on average, 200 at its maximum.");
+        /// Brightness of the moonless zenith over a lit country, natural light (22.0) included.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        zenith_brightness: Option<f64> = None => number(15.0, 22.0, "mag arcsec-2").by("no artificial light").option("zenith-brightness", "MAG").group("towns");
+        /// The same as a class of light pollution on Bortle's scale: 1 is as dark as it gets, 9 an inner city.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        bortle: Option<u8> = None => whole(1, 9, "").by("no artificial light").option("bortle", "CLASS").group("towns");
+        /// Share of the artificial light that comes from white LEDs; the rest is that of sodium lamps.
+        led_share: f64 = 0.5 => number(0.0, 1.0, "").default("0.5").option("led-share", "SHARE");
     }
 }
 
@@ -69,9 +52,7 @@ impl NightOptions {
     /// # Errors
     /// [`Error::Input`] that names the one out of range, or both of two that exclude each other.
     pub fn validate(&self) -> Result<()> {
-        check_range("night.star_limit", self.star_limit, -2.0, 8.5, "")?;
-        check_range("night.solar_flux_sfu", self.solar_flux_sfu, 60.0, 300.0, "solar flux units")?;
-        check_range("night.led_share", self.led_share, 0.0, 1.0, "")?;
+        self.check_ranges()?;
         if self.zenith_brightness.is_some() && self.bortle.is_some() {
             return Err(Error::input("night.bortle", "given", "left out where night.zenith_brightness is given"));
         }
@@ -84,10 +65,8 @@ impl NightOptions {
     /// [`Error::Input`] for a brightness or a class out of range.
     pub fn light_pollution(&self) -> Result<Option<LightPollution>> {
         let zenith = match (self.zenith_brightness, self.bortle) {
-            (Some(zenith), _) => check_range("night.zenith_brightness", zenith, 15.0, 22.0, "mag arcsec-2")?,
-            (None, Some(class)) => {
-                bortle_zenith_brightness(class).map_err(|_| Error::input("night.bortle", class, "a whole number from 1 to 9"))?
-            }
+            (Some(zenith), _) => zenith,
+            (None, Some(class)) => bortle_zenith_brightness(class)?,
             (None, None) => return Ok(None),
         };
         Ok(Some(LightPollution::new(zenith, Lamps::new(self.led_share)?)?))

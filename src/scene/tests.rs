@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 
 fn message(text: &str) -> String {
-    Config::from_json(text).unwrap_err().to_string()
+    Scene::from_json(text).unwrap_err().to_string()
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn wrong_input_names_the_key_with_its_table() {
         (r#"{"tolerance": 0.1, "model": "preetham"}"#, "tolerance = 0.1: must be left out for the model preetham"),
         (r#"{"polarising_filter": {}, "model": "thesis"}"#, "polarising_filter = given: must be left out for the model thesis"),
         (r#"{"atmosphere": []}"#, "atmosphere = []: must be a table"),
-        (r#"{"probe": {"width": 0}}"#, "probe.width = 0: must be a number from 64 to 16384 pixels"),
+        (r#"{"probe": {"width": 0}}"#, "probe.width = 0: must be a whole number from 64 to 16384 pixels"),
         (r#"{"probe": {"width": 64.5}}"#, "probe.width = 64.5: must be a whole number"),
         (r#"{"probe": {"scale": "nits"}}"#, r#"probe.scale = "nits": must be one of blender"#),
         (r#"{"sun": {"altitude_deg": 95, "azimuth_deg": 0}}"#, "sun.altitude_deg = 95: must be"),
@@ -64,25 +64,25 @@ fn unknown_keys_of_the_air_are_told_about_the_keys_of_the_solver_too() {
 
 #[test]
 fn an_empty_configuration_is_the_default_and_says_what_is_missing() {
-    let config = Config::from_json("{}").unwrap();
-    assert_eq!(config, Config::default());
+    let config = Scene::from_json("{}").unwrap();
+    assert_eq!(config, Scene::default());
     assert!(config.place().unwrap_err().to_string().starts_with("latitude = nothing: must be given"));
 }
 
 #[test]
 fn a_place_is_read_by_its_name_and_written_as_numbers() {
-    let config = Config::from_json(r#"{"place": "lund, sweden"}"#).unwrap();
+    let config = Scene::from_json(r#"{"place": "lund, sweden"}"#).unwrap();
     assert_eq!((config.latitude, config.longitude, config.elevation_m), (Some(55.706), Some(13.193), 51.0));
     assert_eq!(config.place_label.as_deref(), Some("Lund, Skåne, Sweden"));
-    let read_back = Config::from_json(&config.to_json()).unwrap();
-    assert_eq!(read_back, Config { place_label: None, ..config });
-    let higher = Config::from_json(r#"{"place": "55 42 36 N 13 11 24 E", "elevation_m": 80}"#).unwrap();
+    let read_back = Scene::from_json(&config.to_json()).unwrap();
+    assert_eq!(read_back, Scene { place_label: None, ..config });
+    let higher = Scene::from_json(r#"{"place": "55 42 36 N 13 11 24 E", "elevation_m": 80}"#).unwrap();
     assert_eq!((higher.latitude, higher.elevation_m), (Some(55.71), 80.0));
 }
 
 #[test]
 fn one_name_or_several_may_be_the_output() {
-    let paths = |text: &str| Config::from_json(text).unwrap().output;
+    let paths = |text: &str| Scene::from_json(text).unwrap().output;
     assert_eq!(paths(r#"{"output": "sky.exr"}"#), [PathBuf::from("sky.exr")]);
     assert_eq!(paths(r#"{"output": ["a.exr", "b.png"]}"#), [PathBuf::from("a.exr"), PathBuf::from("b.png")]);
     assert!(paths(r#"{"output": null}"#).is_empty());
@@ -92,9 +92,9 @@ fn one_name_or_several_may_be_the_output() {
 fn not_a_number_is_refused_where_it_cannot_come_from_json() {
     let sun = Some(SunPosition { altitude_deg: f64::NAN, azimuth_deg: 0.0 });
     for config in [
-        Config { latitude: Some(f64::NAN), ..Config::default() },
-        Config { elevation_m: f64::INFINITY, ..Config::default() },
-        Config { sun, ..Config::default() },
+        Scene { latitude: Some(f64::NAN), ..Scene::default() },
+        Scene { elevation_m: f64::INFINITY, ..Scene::default() },
+        Scene { sun, ..Scene::default() },
     ] {
         assert!(matches!(config.validate(), Err(Error::Input { .. })));
     }
@@ -104,7 +104,7 @@ fn optional<T: Clone + std::fmt::Debug + 'static>(inner: impl Strategy<Value = T
     proptest::option::of(inner).boxed()
 }
 
-fn any_air() -> impl Strategy<Value = AtmosphereConfig> {
+fn any_air() -> impl Strategy<Value = SceneAtmosphere> {
     let grounds = prop_oneof![
         select(vec![Surface::Grass, Surface::Snow, Surface::City]).prop_map(Ground::Surface),
         (0.0..=1.0).prop_map(Ground::Albedo)
@@ -114,7 +114,7 @@ fn any_air() -> impl Strategy<Value = AtmosphereConfig> {
     let qualities = select(vec![Quality::Draft, Quality::Standard, Quality::High, Quality::Reference]);
     let solve = (qualities, any::<bool>(), optional(select(vec![vec![350.0, 550.5], vec![1000.0]])));
     (presets, aerosols, optional(1.0..=64.0), optional(0.0..=1000.0), optional(grounds), solve).prop_map(
-        |(preset, aerosol, turbidity, ozone_du, ground, (quality, polarisation, wavelengths_nm))| AtmosphereConfig {
+        |(preset, aerosol, turbidity, ozone_du, ground, (quality, polarisation, wavelengths_nm))| SceneAtmosphere {
             air: AirParameters { preset, aerosol, turbidity, ozone_du, ground, ..AirParameters::default() },
             quality,
             polarisation,
@@ -157,7 +157,7 @@ fn any_light() -> impl Strategy<Value = LightOptions> {
     })
 }
 
-fn any_config() -> impl Strategy<Value = Config> {
+fn any_config() -> impl Strategy<Value = Scene> {
     let place = (-90.0..=90.0_f64, -180.0..=180.0_f64, select(vec!["2005-06-21T13:00:00+02:00", "1987-01-02T03:04"]));
     let sun = (-90.0..=90.0_f64, -360.0..=360.0_f64);
     let sky = prop_oneof![place.prop_map(Ok), sun.prop_map(Err)];
@@ -179,12 +179,12 @@ fn any_config() -> impl Strategy<Value = Config> {
         .prop_map(
             |(sky, zone, elevation_m, sun_model, atmosphere, probe, light, (half, exposure_stops, operator, layers), output)| {
                 let file = FileOptions { half, exposure_stops, operator, layers };
-                let common = Config { elevation_m, zone, sun_model, light, atmosphere, probe, file, output, ..Config::default() };
+                let common = Scene { elevation_m, zone, sun_model, light, atmosphere, probe, file, output, ..Scene::default() };
                 match sky {
                     Ok((latitude, longitude, time)) => {
-                        Config { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
+                        Scene { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
                     }
-                    Err((altitude_deg, azimuth_deg)) => Config { sun: Some(SunPosition { altitude_deg, azimuth_deg }), ..common },
+                    Err((altitude_deg, azimuth_deg)) => Scene { sun: Some(SunPosition { altitude_deg, azimuth_deg }), ..common },
                 }
             },
         )
@@ -193,11 +193,11 @@ fn any_config() -> impl Strategy<Value = Config> {
 proptest! {
     #[test]
     fn what_is_written_reads_back_to_the_last_digit(config in any_config()) {
-        prop_assert_eq!(Config::from_json(&config.to_json()).unwrap(), config);
+        prop_assert_eq!(Scene::from_json(&config.to_json()).unwrap(), config);
     }
 
     #[test]
     fn no_text_makes_the_reader_panic(text in "[\\[\\]{}:,\"a-z0-9.-]{0,40}") {
-        let _ = Config::from_json(&text);
+        let _ = Scene::from_json(&text);
     }
 }

@@ -13,17 +13,25 @@
 //! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
 //! is a default; an unknown key is an error.
 
+mod describe;
+pub mod json;
+mod parameters;
 mod source;
 
-use super::{FileOptions, STANDARD, json};
+pub use describe::describe;
+pub use parameters::{Section, parameters};
+
 use crate::atmosphere::AirParameters;
-use crate::ephemeris::{Place, SunModel};
-use crate::error::{Error, Result, check_range};
+use crate::ephemeris::{PUT_SUN, Place, SunModel};
+use crate::error::{Error, Result};
+use crate::io::{FileOptions, STANDARD};
+use crate::parameter::{Checked, Kind, Parameter, row};
 use crate::places::{Location, locate};
 use crate::probe::ProbeSettings;
 use crate::quality::Quality;
 use crate::sky::{Atmosphere, LightOptions, Model, NightOptions, PolarisingFilter, Sky, check_chosen_wavelengths};
 use crate::time::{Time, ZoneChoice};
+use crate::words::Words;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
@@ -31,7 +39,7 @@ use std::sync::Arc;
 
 /// Everything that a probe is made from.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Config {
+pub struct Scene {
     /// Geodetic latitude, -90 to 90 [degrees].
     pub latitude: Option<f64>,
     /// Longitude, positive east, -180 to 180 [degrees].
@@ -53,7 +61,7 @@ pub struct Config {
     /// The night.
     pub night: NightOptions,
     /// The state of the air.
-    pub atmosphere: AtmosphereConfig,
+    pub atmosphere: SceneAtmosphere,
     /// The image.
     pub probe: ProbeSettings,
     /// What belongs to the files rather than to the light.
@@ -74,7 +82,7 @@ pub struct SunPosition {
 
 /// The state of the air and how finely its light is solved: one table in JSON.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AtmosphereConfig {
+pub struct SceneAtmosphere {
     /// What the air is made of.
     pub air: AirParameters,
     /// How finely the light is solved.
@@ -85,7 +93,7 @@ pub struct AtmosphereConfig {
     pub wavelengths_nm: Option<Vec<f64>>,
 }
 
-impl Default for AtmosphereConfig {
+impl Default for SceneAtmosphere {
     fn default() -> Self {
         Self { air: AirParameters::default(), quality: Quality::default(), polarisation: true, wavelengths_nm: None }
     }
@@ -128,12 +136,12 @@ fn yes() -> bool {
     true
 }
 
-impl Config {
+impl Scene {
     /// Reads and checks a configuration file: JSON, or a picture of skyprobe (EXR, HDR), whose header holds the configuration that it was made from. `-` is
     /// the standard input.
     ///
     /// # Errors
-    /// [`Error::Input`] if the file cannot be read or holds no configuration, for `config`, or as [`Config::from_json`], with the name of the file.
+    /// [`Error::Input`] if the file cannot be read or holds no configuration, for `config`, or as [`Scene::from_json`], with the name of the file.
     pub fn read(path: &Path) -> Result<Self> {
         let name = if path.as_os_str() == STANDARD { "the standard input".to_owned() } else { path.display().to_string() };
         let in_file = |error| match error {
@@ -177,7 +185,7 @@ impl Config {
             night: document.night.map(|night| json::read("night", &night)).transpose()?.unwrap_or_default(),
             atmosphere: document
                 .atmosphere
-                .map(|air| AtmosphereConfig::from_value("atmosphere", &air))
+                .map(|air| SceneAtmosphere::from_value("atmosphere", &air))
                 .transpose()?
                 .unwrap_or_default(),
             probe: document.probe.map(|probe| json::read("probe", &probe)).transpose()?.unwrap_or_default(),
@@ -278,23 +286,24 @@ impl Config {
         self.validate_sections([""; 4])
     }
 
-    /// As [`Config::validate`], with the names of the tables in front of the parameters in errors.
+    /// As [`Scene::validate`], with the names of the tables in front of the parameters in errors.
     fn validate_sections(&self, [sun_table, air_table, probe_table, file_table]: [&str; 4]) -> Result<()> {
         Place::new(self.latitude.unwrap_or(0.0), self.longitude.unwrap_or(0.0), self.elevation_m)?;
         if let Some(sun) = &self.sun {
             if self.latitude.is_some() || self.longitude.is_some() || self.time.is_some() {
                 return Err(Error::input("sun", sun, "left out where place and time are given, or given alone"));
             }
-            check_range(&json::join(sun_table, "altitude_deg"), sun.altitude_deg, -90.0, 90.0, "degrees")?;
-            check_range(&json::join(sun_table, "azimuth_deg"), sun.azimuth_deg, -360.0, 360.0, "degrees")?;
+            for (row, value) in PUT_SUN.iter().zip([sun.altitude_deg, sun.azimuth_deg]) {
+                value.check(row, &json::join(sun_table, row.name))?;
+            }
         }
         if let Some(text) = &self.time {
             // Without a place its zone is not known yet; UTC serves to check the spelling.
             let zone = self.zone.as_deref().unwrap_or("UTC");
             Time::parse(text, ZoneChoice::Named(zone))?;
         }
-        check_range(&json::join(file_table, "exposure_stops"), self.file.exposure_stops, -20.0, 20.0, "stops")?;
-        let AtmosphereConfig { air, wavelengths_nm, .. } = &self.atmosphere;
+        self.file.check_ranges().map_err(|error| json::within(file_table, error))?;
+        let SceneAtmosphere { air, wavelengths_nm, .. } = &self.atmosphere;
         air.validate().map_err(|error| json::within(air_table, error))?;
         if let Some(wavelengths_nm) = wavelengths_nm {
             check_chosen_wavelengths(wavelengths_nm).map_err(|error| json::within(air_table, error))?;
@@ -322,7 +331,7 @@ impl Config {
     /// # Errors
     /// [`Error::Input`] that names the parameter.
     pub fn atmosphere(&self) -> Result<Atmosphere> {
-        let AtmosphereConfig { air, quality, polarisation, wavelengths_nm } = &self.atmosphere;
+        let SceneAtmosphere { air, quality, polarisation, wavelengths_nm } = &self.atmosphere;
         match wavelengths_nm {
             None => Atmosphere::new(air, *quality, *polarisation),
             Some(wavelengths_nm) => Atmosphere::at_wavelengths(air, wavelengths_nm, *quality, *polarisation),
@@ -354,7 +363,24 @@ pub fn time_at(place: &Place, text: &str, zone: Option<&str>) -> Result<Time> {
     Time::parse(text, zone.map_or(ZoneChoice::OfPlace { latitude_deg, longitude_deg }, ZoneChoice::Named))
 }
 
-impl AtmosphereConfig {
+impl SceneAtmosphere {
+    /// The rows of the table of parameters that say how the light is solved.
+    pub(crate) const SOLVE: &'static [Parameter] = &[
+        row::words(Quality::WORDS)
+            .named("atmosphere", "quality", "How finely the light is solved")
+            .default("\"standard\"")
+            .option("quality", "NAME"),
+        row::flag()
+            .named("atmosphere", "polarisation", "Whether light is solved with its polarisation")
+            .default("true")
+            .option("polarisation", "")
+            .detail()
+            .more("As a scalar it is wrong by several per cent: only to compare with scalar codes."),
+        Parameter::new(Kind::Ascending { low: 300.0, high: 1000.0 }, "nm")
+            .named("atmosphere", "wavelengths_nm", "Wavelengths at which light is solved instead of those of the quality")
+            .more("A probe and an illuminance need at least four, from 450 or less to 650 or more."),
+    ];
+
     /// Reads the table found under the key `path`.
     ///
     /// # Errors

@@ -1,8 +1,8 @@
 //! What the header of a file says about the sky in it.
 
-use super::config::{AtmosphereConfig, Config, SunPosition};
-use super::{FileOptions, Metadata};
+use super::{Scene, SceneAtmosphere, SunPosition};
 use crate::ephemeris::SunModel;
+use crate::io::{FileOptions, Metadata};
 use crate::probe::ProbeSettings;
 use crate::sky::{LightOptions, Sky};
 use crate::time::Time;
@@ -24,10 +24,10 @@ pub fn describe(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: 
 }
 
 /// The configuration that makes a probe of `sky` again; `None` if its air was given as a profile.
-fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Option<Config> {
+fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Option<Scene> {
     let (place, time, atmosphere, sun) = (sky.place(), sky.time(), sky.atmosphere(), sky.sun());
     let put = SunPosition { altitude_deg: sun.altitude_deg, azimuth_deg: sun.azimuth_deg };
-    Some(Config {
+    Some(Scene {
         latitude: place.map(|place| place.latitude_deg),
         longitude: place.map(|place| place.longitude_deg),
         elevation_m: sky.elevation_m(),
@@ -38,7 +38,7 @@ fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &Pr
         sun_model,
         light: light.clone(),
         night: *sky.night(),
-        atmosphere: AtmosphereConfig {
+        atmosphere: SceneAtmosphere {
             air: atmosphere.parameters()?.clone(),
             quality: atmosphere.quality(),
             polarisation: atmosphere.is_polarised(),
