@@ -198,7 +198,10 @@ impl Parameter {
     pub fn default_in_words(&self) -> Option<String> {
         match self.default {
             DefaultValue::Nothing => None,
-            DefaultValue::Value(json) => Some(json.trim_matches('"').to_owned()),
+            DefaultValue::Value(json) => {
+                let word = json.trim_matches('"');
+                Some(word.strip_suffix(".0").unwrap_or(word).to_owned())
+            }
             DefaultValue::Told(told) => Some(told.to_owned()),
         }
     }

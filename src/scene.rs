@@ -19,7 +19,7 @@ mod parameters;
 mod source;
 
 pub use describe::describe;
-pub use parameters::{Section, parameters};
+pub use parameters::{AIR, FILE, IMAGE, NIGHT, PLACE_AND_TIME, SECTIONS, Section, parameters};
 
 use crate::atmosphere::AirParameters;
 use crate::ephemeris::{PUT_SUN, Place, SunModel};
@@ -162,8 +162,15 @@ impl Scene {
     /// [`Error::Input`] for text that is not JSON, an unknown key, a key that stands twice, a value of the wrong type or out of range; it names the key with
     /// its table, such as `atmosphere.turbidity`.
     pub fn from_json(text: &str) -> Result<Self> {
-        let value = json::parse("config", text)?;
-        let document: Document = json::read("", &value)?;
+        Self::from_value(&json::parse("config", text)?)
+    }
+
+    /// As [`Scene::from_json`], of JSON that was parsed.
+    ///
+    /// # Errors
+    /// As [`Scene::from_json`].
+    pub fn from_value(value: &Value) -> Result<Self> {
+        let document: Document = json::read("", value)?;
         let mut config = Self {
             latitude: document.latitude,
             longitude: document.longitude,
@@ -371,7 +378,7 @@ impl SceneAtmosphere {
             .default("\"standard\"")
             .option("quality", "NAME"),
         row::flag()
-            .named("atmosphere", "polarisation", "Whether light is solved with its polarisation")
+            .named("atmosphere", "polarisation", "Solve light with its polarisation")
             .default("true")
             .option("polarisation", "")
             .detail()

@@ -3,9 +3,8 @@
 mod json;
 mod text;
 
-use super::air_options::AirOptions;
-use super::night_options::NightCommandOptions;
-use super::options::{ConfigOptions, PlaceOptions, tell_time};
+use super::options::{ConfigOptions, tell_time};
+use super::scene_options::{SceneOptions, SkyAlone};
 use super::{answer, files, terminal};
 use crate::ephemeris::{Body, MoonPhase, RiseAndSet, SunEvents, Target, next_moon_phases, rise_and_set, sun_events};
 use crate::error::Result;
@@ -35,11 +34,7 @@ level horizon. Twilights: civil to -6, nautical to -12, astronomical to -18 degr
 #[command(allow_negative_numbers = true, after_long_help = EXAMPLES, after_help = "Examples: skyprobe info --help")]
 pub struct Options {
     #[command(flatten)]
-    place: PlaceOptions,
-    #[command(flatten)]
-    air: AirOptions,
-    #[command(flatten)]
-    night: NightCommandOptions,
+    scene: SceneOptions<SkyAlone>,
     /// Print JSON instead of text.
     #[arg(long)]
     json: bool,
@@ -52,12 +47,12 @@ pub struct Options {
 
 /// Prints the report.
 pub fn run(options: &Options) -> Result<()> {
+    tell(options).map_err(|error| options.scene.as_typed(error))
+}
+
+fn tell(options: &Options) -> Result<()> {
     files::check(options.config.input().as_slice(), &[])?;
-    let mut config = options.config.read()?;
-    options.place.apply(&mut config)?;
-    options.air.apply(&mut config)?;
-    options.night.apply(&mut config.night)?;
-    config.validate()?;
+    let config = options.scene.over(options.config.read()?)?;
     if options.config.dump_config {
         tell_time(&config);
         return answer(&config.to_json());

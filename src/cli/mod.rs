@@ -2,15 +2,14 @@
 //!
 //! Exit codes: 0 done, 1 failed while working (such as a full disk), 2 wrong input (one line says which), 130 cancelled.
 
-mod air_options;
 mod files;
 mod glare;
 mod info;
-mod night_options;
 mod options;
 mod picture_options;
 mod places;
 mod render;
+mod scene_options;
 mod seconds;
 mod shell;
 mod terminal;

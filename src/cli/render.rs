@@ -1,14 +1,13 @@
 //! `skyprobe render`: from a place, a time and an air to files.
 
-use super::air_options::AirOptions;
-use super::night_options::NightCommandOptions;
-use super::options::{ConfigOptions, PlaceOptions, tell_time};
+use super::options::{ConfigOptions, tell_time};
+use super::scene_options::{Picture, SceneOptions};
 use super::{answer, files, say, terminal};
-use crate::error::{Error, Result, check_range};
+use crate::error::{Error, Result};
 use crate::io::{Format, SampleMap, each_once, render_with};
-use crate::probe::{MAX_WIDTH, MIN_WIDTH, ProbeSettings};
+use crate::probe::ProbeSettings;
 use crate::scene::{Scene, describe};
-use crate::sky::{Layer, Model, PolarisingFilter, Sky};
+use crate::sky::{Model, Sky};
 use clap::Args;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -52,38 +51,10 @@ south at 3/4, unless --turn or --centre turn it. Files appear whole or not at al
 #[command(allow_negative_numbers = true, after_long_help = EXAMPLES, after_help = "Examples and longer explanations: skyprobe render --help")]
 pub struct Options {
     #[command(flatten)]
-    place: PlaceOptions,
-    #[command(flatten)]
-    air: AirOptions,
-    #[command(flatten)]
-    night: NightCommandOptions,
-    #[command(flatten)]
-    image: ImageOptions,
-    /// By which model the sky is rendered: scattering (solved light: day, twilight, night) preetham (the analytic sky of 1999, by day at
-    /// turbidities from 2 to 10), thesis or thesis_single (ray marching with random steps, light scattered at most twice or once: noisy, for small
-    /// images). Only scattering knows the night. Default: scattering.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    model: Option<String>,
-    /// See the sky through a polarising filter of this strength, 0 to 1 (ideal), exposed so that unpolarised light stays as it is.
-    #[arg(long, value_name = "STRENGTH", help_heading = IMAGE)]
-    polarising_filter: Option<f64>,
-    /// Angle of the filter's axis from the vertical, clockwise as one sees it, -180 to 180 [degrees]. Default: 0.
-    #[arg(long, value_name = "DEG", help_heading = IMAGE)]
-    filter_angle: Option<f64>,
-    /// Hold the filter towards this altitude and azimuth [degrees], one piece of glass for the whole picture; otherwise it turns with the view.
-    #[arg(long, value_name = "ALT,AZ", value_delimiter = ',', num_args = 1, help_heading = IMAGE)]
-    filter_towards: Option<Vec<f64>>,
-    /// Relative error that interpolated directions may have, 0.0001 to 0.5. Default: as many directions as the quality says.
-    #[arg(long, value_name = "SHARE", help_heading = IMAGE)]
-    tolerance: Option<f64>,
-    /// Multiply the light of a layer by a factor, 0 (left out) to 1e9, as in stars=2. May be given several times.
-    ///
-    /// Layers: sky (light scattered by the air, and the ground), sun, moon, stars, planets, milky_way, zodiacal, airglow, light_pollution.
-    #[arg(long, value_name = "NAME=FACTOR", help_heading = IMAGE)]
-    layer: Vec<String>,
-    /// Write each layer into EXR files beside their sum, in channels such as stars.R.
-    #[arg(long, help_heading = OUTPUT)]
-    separate_layers: bool,
+    scene: SceneOptions<Picture>,
+    /// Turn the sky so that the sun, the moon or an azimuth [degrees] stands in the middle column of a latlong picture, away from its seam.
+    #[arg(long, value_name = "sun|moon|DEG", conflicts_with = "turn", help_heading = IMAGE)]
+    centre: Option<String>,
     /// Write a picture (.png) of the directions in which light was gathered.
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     sample_map: Option<PathBuf>,
@@ -93,107 +64,11 @@ pub struct Options {
     /// Another file, a tone-mapped picture (.png).
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     preview: Option<PathBuf>,
-    /// Write EXR files with half floats, which end at 65504, below the Sun's disc in most scales.
-    ///
-    /// refuse (the default of this option): a brighter pixel is an error. scale: all pixels are multiplied by a power of two, which the
-    /// header states. off: float32, which is the default without this option.
-    #[arg(long, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "refuse", help_heading = OUTPUT)]
-    half: Option<String>,
-    /// Exposure of PNG files relative to the automatic one, -20 to 20 [stops]. Default: 0.
-    #[arg(long, value_name = "STOPS", help_heading = OUTPUT)]
-    exposure: Option<f64>,
-    /// Tone mapping operator of PNG files: sky, filmic, aces, exposure, reinhard, reinhard_local, ashikhmin, logarithmic or linear. Default: sky.
-    /// More choices: skyprobe tonemap, on an EXR or HDR file.
-    #[arg(long, value_name = "NAME", help_heading = OUTPUT)]
-    operator: Option<String>,
     #[command(flatten)]
     config: ConfigOptions,
 }
 
-/// What the image is.
-#[derive(Args)]
-struct ImageOptions {
-    /// Width, 64 to 16384 [pixels]. Default: 2048. The height follows: half of it for a full latitude-longitude map.
-    #[arg(long, value_name = "PX", help_heading = IMAGE)]
-    width: Option<i64>,
-    /// latlong, or fisheye (zenith in the centre). Default: latlong.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    projection: Option<String>,
-    /// centre (Blender and most viewers) or corner (Mitsuba: first and last row on the poles). Default: centre.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    rows: Option<String>,
-    /// full sphere, or the upper half. Default: full.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    extent: Option<String>,
-    /// Turn the sky in the picture clockwise as seen from above, to the right, by this angle, -360 to 360 [degrees]. Default: 0.
-    #[arg(long, value_name = "DEG", help_heading = IMAGE)]
-    turn: Option<f64>,
-    /// Turn the sky so that the sun, the moon or an azimuth [degrees] stands in the middle column of a latlong picture, away from its seam.
-    #[arg(long, value_name = "sun|moon|DEG", conflicts_with = "turn", help_heading = IMAGE)]
-    centre: Option<String>,
-    /// What is seen below the horizon: on (the lit ground), off (black) or mirrored (the sky again). Default: on.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    ground_view: Option<String>,
-    /// Leave the Sun's disc out, to light the scene with a Sun lamp.
-    #[arg(long, help_heading = IMAGE, overrides_with = "sun_disc")]
-    no_sun_disc: bool,
-    /// Draw the Sun's disc, which is the default, over a configuration without it.
-    #[arg(long, help_heading = IMAGE, overrides_with = "no_sun_disc")]
-    sun_disc: bool,
-    /// Leave the Moon's disc out, to light the scene with a lamp for it.
-    #[arg(long, help_heading = IMAGE, overrides_with = "moon_disc")]
-    no_moon_disc: bool,
-    /// Draw the Moon's disc, which is the default, over a configuration without it.
-    #[arg(long, help_heading = IMAGE, overrides_with = "no_moon_disc")]
-    moon_disc: bool,
-    /// What 1.0 means: blender (luminance / 683), mitsuba (mean W m-2 sr-1 nm-1) or luminance (cd m-2). Default: blender.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    scale: Option<String>,
-    /// lin_rec709, acescg, lin_rec2020 or xyz; always linear. Default: lin_rec709.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    color_space: Option<String>,
-    /// Colours outside that space: desaturate, clip or keep (as negative numbers). Default: desaturate.
-    #[arg(long, value_name = "NAME", help_heading = IMAGE)]
-    gamut: Option<String>,
-}
-
-impl ImageOptions {
-    fn apply(&self, config: &mut Scene) -> Result<()> {
-        let probe = &mut config.probe;
-        if let Some(width) = self.width {
-            probe.width = check_range("width", width as f64, MIN_WIDTH as f64, MAX_WIDTH as f64, "pixels")? as usize;
-        }
-        if let Some(name) = &self.projection {
-            probe.projection = name.parse()?;
-        }
-        if let Some(name) = &self.rows {
-            probe.rows = name.parse()?;
-        }
-        if let Some(name) = &self.extent {
-            probe.extent = name.parse()?;
-        }
-        probe.turn_deg = self.turn.unwrap_or(probe.turn_deg);
-        if let Some(name) = &self.ground_view {
-            probe.ground = name.parse()?;
-        }
-        if self.no_sun_disc || self.sun_disc {
-            probe.sun_disc = self.sun_disc;
-        }
-        if self.no_moon_disc || self.moon_disc {
-            probe.moon_disc = self.moon_disc;
-        }
-        if let Some(name) = &self.scale {
-            probe.scale = name.parse()?;
-        }
-        if let Some(name) = &self.color_space {
-            probe.color_space = name.parse()?;
-        }
-        if let Some(name) = &self.gamut {
-            probe.gamut = name.parse()?;
-        }
-        Ok(())
-    }
-
+impl Options {
     /// The turn that brings what is asked for into the middle of the picture; `None` if nothing is.
     fn turn_to_centre(&self, sky: &Sky) -> Result<Option<f64>> {
         let Some(text) = &self.centre else { return Ok(None) };
@@ -210,15 +85,9 @@ impl ImageOptions {
         };
         ProbeSettings::turn_to_centre(azimuth_deg).map(Some)
     }
-}
 
-impl Options {
     fn config(&self) -> Result<Scene> {
-        let mut config = self.config.read()?;
-        self.place.apply(&mut config)?;
-        self.air.apply(&mut config)?;
-        self.night.apply(&mut config.night)?;
-        self.image.apply(&mut config)?;
+        let mut config = self.scene.over(self.config.read()?)?;
         if !self.output.is_empty() {
             config.output.clone_from(&self.output);
         }
@@ -229,24 +98,6 @@ impl Options {
             config.output.push(preview.clone());
         }
         config.output = each_once(&config.output).into_iter().cloned().collect();
-        if let Some(name) = &self.model {
-            config.light.model = name.parse()?;
-        }
-        self.apply_filter(&mut config.light.polarising_filter)?;
-        config.light.tolerance = self.tolerance.or(config.light.tolerance);
-        for text in &self.layer {
-            let (layer, factor) = layer_and_factor(text)?;
-            config.light.layers.0.insert(layer, factor);
-        }
-        config.file.layers |= self.separate_layers;
-        if let Some(name) = &self.half {
-            config.file.half = name.parse()?;
-        }
-        config.file.exposure_stops = self.exposure.unwrap_or(config.file.exposure_stops);
-        if let Some(name) = &self.operator {
-            config.file.operator = name.parse()?;
-        }
-        config.validate()?;
         if let Some(path) = &self.sample_map {
             SampleMap::check_name(path)?;
             if config.light.model != Model::Scattering {
@@ -255,31 +106,6 @@ impl Options {
         }
         Ok(config)
     }
-
-    fn apply_filter(&self, filter: &mut Option<PolarisingFilter>) -> Result<()> {
-        if let Some(strength) = self.polarising_filter {
-            filter.get_or_insert_default().strength = strength;
-        }
-        let Some(filter) = filter else {
-            return match (self.filter_angle, &self.filter_towards) {
-                (None, None) => Ok(()),
-                _ => Err(Error::input("polarising_filter", "nothing", "given, to turn it or to hold it towards a direction")),
-            };
-        };
-        filter.angle_deg = self.filter_angle.unwrap_or(filter.angle_deg);
-        match self.filter_towards.as_deref() {
-            None => {}
-            Some(&[altitude, azimuth]) => filter.held_towards_deg = Some([altitude, azimuth]),
-            Some(other) => {
-                return Err(Error::input(
-                    "filter_towards",
-                    format!("{} numbers", other.len()),
-                    "altitude and azimuth, such as 30,180",
-                ));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Width of the picture of samples [pixels].
@@ -287,17 +113,21 @@ const SAMPLE_MAP_WIDTH: usize = 1024;
 
 /// Renders, and writes the files.
 pub fn run(options: &Options) -> Result<()> {
+    render(options).map_err(|error| options.scene.as_typed(error))
+}
+
+fn render(options: &Options) -> Result<()> {
     let mut config = options.config()?;
     let inputs = options.config.input();
     tell_time(&config);
     if options.config.dump_config {
         files::check(inputs.as_slice(), &[])?;
     }
-    if options.config.dump_config && options.image.centre.is_none() {
+    if options.config.dump_config && options.centre.is_none() {
         return answer(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;
-    config.probe.turn_deg = options.image.turn_to_centre(&sky)?.unwrap_or(config.probe.turn_deg);
+    config.probe.turn_deg = options.turn_to_centre(&sky)?.unwrap_or(config.probe.turn_deg);
     if options.config.dump_config {
         return answer(&config.to_json());
     }
@@ -308,8 +138,8 @@ pub fn run(options: &Options) -> Result<()> {
     let sample_map = options.sample_map.iter().map(|path| ("sample_map", path.as_path()));
     files::check(inputs.as_slice(), &outputs.chain(sample_map).collect::<Vec<_>>())?;
     let is_exr = |path: &PathBuf| Format::of(path).is_ok_and(|format| format == Format::Exr);
-    if options.separate_layers && !config.output.iter().any(is_exr) {
-        return Err(Error::input("separate_layers", "true", "left out without an output that ends in .exr"));
+    if config.file.layers && !config.output.iter().any(is_exr) {
+        return Err(Error::input("file.layers", "true", "left out without an output that ends in .exr"));
     }
     if let (Some(label), Some(place)) = (&config.place_label, sky.place()) {
         say(&format!("place: {label} ({}, {}; {} m)", place.latitude_deg, place.longitude_deg, place.elevation_m))?;
@@ -334,12 +164,4 @@ pub fn run(options: &Options) -> Result<()> {
         say(&format!("{}: samples", path.display()))?;
     }
     config.output.iter().try_for_each(|path| say(&format!("{}: {width} x {height}, {sun}", path.display())))
-}
-
-/// Reads a text such as `stars=2`.
-fn layer_and_factor(text: &str) -> Result<(Layer, f64)> {
-    let (name, factor) = text.split_once('=').unwrap_or((text, ""));
-    let layer: Layer = name.trim().parse()?;
-    let factor = factor.trim().parse();
-    Ok((layer, factor.map_err(|_| Error::input("layer", format!("{text:?}"), "NAME=FACTOR, such as stars=2"))?))
 }

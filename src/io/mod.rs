@@ -63,7 +63,7 @@ parameters! {
         /// Tone mapping operator of PNG files.
         operator: OperatorName = OperatorName::default() => words(OperatorName::WORDS).default("\"sky\"").option("operator", "NAME")
             .more("More choices: skyprobe tonemap, on an EXR or HDR file.");
-        /// Whether EXR files hold each layer beside their sum, in channels such as stars.R.
+        /// Write each layer into EXR files beside their sum, in channels such as stars.R.
         ///
         /// Colours outside the space are then dealt with layer by layer ([`Layer`](crate::sky::Layer)).
         layers: bool = false => flag().default("false").option("separate-layers", "");

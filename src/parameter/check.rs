@@ -37,7 +37,7 @@ macro_rules! whole {
     )+};
 }
 
-whole!(u8, usize);
+whole!(u8, usize, i64);
 
 impl<T: Checked> Checked for Option<T> {
     fn check(&self, row: &Parameter, name: &str) -> Result<()> {

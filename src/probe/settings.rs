@@ -91,10 +91,10 @@ parameters! {
         turn_deg: f64 = 0.0 => number(-360.0, 360.0, "degrees").default("0.0").option("turn", "DEG");
         /// What is seen below the horizon: the lit ground, black, or the sky again.
         ground: GroundView = GroundView::default() => words(GroundView::WORDS).default("\"on\"").option("ground-view", "NAME");
-        /// Whether the Sun's disc is drawn.
+        /// Draw the Sun's disc.
         sun_disc: bool = true => flag().default("true").option("sun-disc", "")
             .more("Left out to light the scene with a Sun lamp.");
-        /// Whether the Moon's disc is drawn; planets and stars always are.
+        /// Draw the Moon's disc; planets and stars always are.
         moon_disc: bool = true => flag().default("true").option("moon-disc", "")
             .more("Left out to light the scene with a lamp for it.");
         /// What the number 1.0 in a pixel stands for.

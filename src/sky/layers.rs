@@ -45,11 +45,9 @@ words!(Layer, "layers", {
 });
 
 /// The row of the table of parameters.
-pub(super) const LAYERS: Parameter = Parameter::new(Kind::Factors { words: Layer::WORDS, low: 0.0, high: 1e9 }, "").named(
-    "",
-    "layers",
-    "Factors on the light of layers; 0 leaves one out",
-);
+pub(super) const LAYERS: Parameter = Parameter::new(Kind::Factors { words: Layer::WORDS, low: 0.0, high: 1e9 }, "")
+    .named("", "layers", "Factors on the light of layers, 0 to leave one out, as in stars=2")
+    .option("layer", "NAME=FACTOR");
 
 /// Factors on the light of layers, 0 (left out) to 1e9; layers that are not named count as they are.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
