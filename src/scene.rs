@@ -16,6 +16,7 @@
 mod describe;
 pub mod json;
 mod parameters;
+pub mod schema;
 mod source;
 
 pub use describe::describe;

@@ -10,6 +10,7 @@ mod picture_options;
 mod places;
 mod render;
 mod scene_options;
+mod schema;
 mod seconds;
 mod shell;
 mod terminal;
@@ -50,6 +51,8 @@ enum Command {
     Glare(Box<glare::Options>),
     /// Bring a picture to a screen: a probe, or a scene that it lit, by one of nine operators; or a whole sequence without flicker.
     Tonemap(Box<tonemap::Options>),
+    /// Print what a configuration may say: as a JSON Schema, or as a table of all parameters.
+    Schema(schema::Options),
     /// Print a script that completes commands and options in a shell.
     Completions(shell::CompletionOptions),
     /// Print a manual page, or write all of them into a folder.
@@ -64,6 +67,7 @@ impl Command {
             Self::Places(options) => places::run(options),
             Self::Glare(options) => glare::run(options),
             Self::Tonemap(options) => tonemap::run(options),
+            Self::Schema(options) => schema::run(options),
             Self::Completions(options) => shell::completions(options),
             Self::Man(options) => shell::man(options),
         }
