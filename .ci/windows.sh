@@ -99,7 +99,8 @@ build_wheel() {
 }
 
 run_tests() {
-    inside env CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine WINEDEBUG=-all XDG_RUNTIME_DIR=/tmp PROPTEST_RNG_SEED=20051 \
+    # Wine keeps names beyond ASCII only where the system's are UTF-8.
+    inside env LANG=C.UTF-8 CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine WINEDEBUG=-all XDG_RUNTIME_DIR=/tmp PROPTEST_RNG_SEED=20051 \
         cargo test --release --locked --target "$target" -Zbuild-std=std,panic_abort --test cli --test cli_files --test windows
 }
 

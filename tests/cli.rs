@@ -2,7 +2,7 @@
 #![cfg(feature = "cli")]
 
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 const SUN: [&str; 4] = ["--sun-altitude", "30", "--sun-azimuth", "-20"];
 
@@ -195,7 +195,7 @@ fn an_interrupted_render_exits_with_130_and_leaves_nothing() {
             .args(["render", "--quality", "high", "--width", "4096", "-o", "sky.exr"])
             .args(SUN)
             .current_dir(folder.path())
-            .stderr(Stdio::piped())
+            .stderr(std::process::Stdio::piped())
             .spawn()
             .unwrap();
         std::thread::sleep(std::time::Duration::from_millis(300));

@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 const SUN: [&str; 4] = ["--sun-altitude", "30", "--sun-azimuth", "340"];
 const SMALL: [&str; 6] = ["--quality", "draft", "--width", "64", "--no-cache", "--no-sun-disc"];
@@ -118,7 +118,7 @@ fn what_is_told_is_not_written_over_a_file_of_the_command() {
         (vec!["tonemap", "a.exr", "b.exr"], "b.exr"),
     ] {
         let out = fs::OpenOptions::new().append(true).open(folder.path().join(to)).unwrap();
-        let output = command(folder.path(), &arguments).stdout(out).stderr(Stdio::piped()).output().unwrap();
+        let output = command(folder.path(), &arguments).stdout(out).stderr(std::process::Stdio::piped()).output().unwrap();
         let complaint = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {complaint}");
         assert!(complaint.contains("standard output = -: must be another file"), "{complaint}");
