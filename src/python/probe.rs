@@ -2,10 +2,12 @@
 
 use super::arguments::vectors;
 use super::errors::InputError;
+use super::scene::Scene;
 use super::work;
 use crate::error::Result;
 use crate::io::{self, FileOptions, Half, Metadata};
 use crate::probe::{self, ProbeSettings};
+use crate::scene;
 use glam::DVec3;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
@@ -65,6 +67,13 @@ impl Probe {
         };
         *pixels = Pixels::Array(array.clone_ref(py));
         Ok(array)
+    }
+
+    /// The scene that makes this probe again; None if its air was given as a profile.
+    #[getter]
+    fn scene(&self) -> PyResult<Option<Scene>> {
+        let scene = self.metadata.config_json.as_deref().map(scene::Scene::from_json).transpose()?;
+        Ok(scene.map(|inner| Scene { inner }))
     }
 
     /// Width. [pixels]

@@ -9,12 +9,13 @@ use super::filter::PolarisingFilter;
 use super::night::Night;
 use super::probe::{Probe, read_half};
 use super::results::{Illuminance, Irradiance, SunEvents, datetime};
+use super::scene::Scene;
 use super::{fork, work};
 use crate::ephemeris::{self, Place, SunModel, next_moon_phases};
 use crate::error::check_range;
 use crate::io::{FileOptions, Format, Half, SampleMap, check_output, render_to_files};
-use crate::probe;
-use crate::scene::{describe, time_at};
+use crate::probe::{self, ProbeSettings};
+use crate::scene::{self, describe, time_at};
 use crate::sky::{self, Layer, LightOptions, Model};
 use crate::time::Time;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
@@ -52,7 +53,7 @@ use std::sync::Arc;
 ///     What of the night is in the sky; None for ``Night()``.
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Sky {
-    inner: Arc<sky::Sky>,
+    pub inner: Arc<sky::Sky>,
     air: Py<Atmosphere>,
     sun_model: SunModel,
     model: Model,
@@ -81,12 +82,8 @@ impl Sky {
         let time = time_at(&place, &time_text(time)?, zone)?;
         let (sun_model, model) = (sun_model.parse()?, model.parse()?);
         let night = night.map(|night| night.inner).unwrap_or_default();
-        if let Some(notice) = time.notice() {
-            let message = CString::new(format!("time: {notice}"))?;
-            PyErr::warn(py, &py.get_type::<TimeWarning>(), &message, 1)?;
-        }
         let inner = sky::Sky::new(place, time, sun_model, atmosphere.get().inner.clone())?.with_night(night)?;
-        Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model, model })
+        Self::of(py, inner, atmosphere.unbind(), sun_model, model)
     }
 
     /// The sky under a Sun that is put, without place and time, and so without Moon, stars and the other lights of the night.
@@ -116,6 +113,14 @@ impl Sky {
         let model = model.parse()?;
         let inner = sky::Sky::with_sun(altitude_deg, azimuth_deg, elevation_m, atmosphere.get().inner.clone())?;
         Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model: SunModel::default(), model })
+    }
+
+    /// The scene that makes this sky again, with the picture that ``render`` makes by default; None if its air was given as a profile.
+    #[getter]
+    fn scene(&self) -> Option<Scene> {
+        let light = LightOptions { model: self.model, ..LightOptions::default() };
+        let inner = scene::Scene::of(&self.inner, self.sun_model, &light, &ProbeSettings::default())?;
+        Some(Scene { inner })
     }
 
     /// Latitude of the place. [degrees]
@@ -584,6 +589,15 @@ impl Sky {
 }
 
 impl Sky {
+    /// A sky of the library; what had to be assumed about its time is warned of.
+    pub fn of(py: Python<'_>, inner: sky::Sky, air: Py<Atmosphere>, sun_model: SunModel, model: Model) -> PyResult<Self> {
+        if let Some(notice) = inner.time().and_then(Time::notice) {
+            let message = CString::new(format!("time: {notice}"))?;
+            PyErr::warn(py, &py.get_type::<TimeWarning>(), &message, 1)?;
+        }
+        Ok(Self { inner: Arc::new(inner), air, sun_model, model })
+    }
+
     fn light_options(
         &self,
         filter: Option<PyRef<'_, PolarisingFilter>>,
