@@ -711,7 +711,7 @@ class Scene:
         """
 
     def sky(self, atmosphere: Atmosphere | None = None) -> Sky:
-        """The sky of the scene.
+        """The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
 
         Parameters
         ----------
