@@ -1,8 +1,6 @@
 //! Eclipses of Sun and Moon as a probe shows them.
 
-mod common;
-
-use common::night::{AIR, light, place, sky};
+use crate::common::night::{AIR, light, place, sky};
 use glam::DVec3;
 use skyprobe::ephemeris::SunModel;
 use skyprobe::probe::{Probe, ProbeSettings, Rows, render};
