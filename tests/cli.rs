@@ -750,7 +750,10 @@ fn what_is_made_from_the_table_of_parameters_is_up_to_date() {
         let made = tool(folder.path(), &["schema", "--format", format]);
         assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
         let kept = std::fs::read_to_string(root.join(file)).unwrap();
-        assert!(kept.ends_with(&text(&made.stdout)), "{file} is stale: write again what skyprobe schema --format {format} prints");
+        assert!(
+            kept.ends_with(&text(&made.stdout)),
+            "{file} is stale: write again what skyprobe schema --format {format} prints"
+        );
     }
     let wrong = tool(folder.path(), &["schema", "--format", "xml"]);
     assert_eq!((wrong.status.code(), text(&wrong.stderr).contains("json, markdown or python")), (Some(2), true));
