@@ -1,73 +1,9 @@
 //! The light of a sky by its sources: each can be scaled, left out, or looked at alone.
 
-use super::SkyLight;
 use super::disc::{Disc, Point};
-use crate::error::Result;
-use crate::parameter::{Checked, Kind, Parameter};
-use crate::words::{Words, words};
-use serde::{Deserialize, Serialize};
+use super::options::Layer;
+use super::sky_light::SkyLight;
 use std::collections::BTreeMap;
-
-/// A source of light, or several that are of one kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum Layer {
-    /// Light of Sun and Moon scattered by the air, and the ground.
-    Sky,
-    /// The Sun's disc, and at a total eclipse its corona.
-    Sun,
-    /// The Moon's disc.
-    Moon,
-    /// The stars, one by one.
-    Stars,
-    /// The planets.
-    Planets,
-    /// The light of all other stars, and of what they light.
-    MilkyWay,
-    /// Sunlight scattered by the dust between the planets.
-    Zodiacal,
-    /// The glow of the upper air.
-    Airglow,
-    /// Light from towns, scattered by the air.
-    LightPollution,
-}
-
-words!(Layer, "layers", {
-    Sky => "sky",
-    Sun => "sun",
-    Moon => "moon",
-    Stars => "stars",
-    Planets => "planets",
-    MilkyWay => "milky_way",
-    Zodiacal => "zodiacal",
-    Airglow => "airglow",
-    LightPollution => "light_pollution",
-});
-
-/// The row of the table of parameters.
-pub(super) const LAYERS: Parameter = Parameter::new(Kind::Factors { words: Layer::WORDS, low: 0.0, high: 1e9 }, "")
-    .named("", "layers", "Factors on the light of layers, 0 to leave one out, as in stars=2")
-    .option("layer", "NAME=FACTOR");
-
-/// Factors on the light of layers, 0 (left out) to 1e9; layers that are not named count as they are.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct LayerScales(pub BTreeMap<Layer, f64>);
-
-impl LayerScales {
-    /// The factor on `layer`.
-    pub fn of(&self, layer: Layer) -> f64 {
-        self.0.get(&layer).copied().unwrap_or(1.0)
-    }
-
-    /// Checks the factors.
-    ///
-    /// # Errors
-    /// [`Error::Input`] that names the layer.
-    pub fn validate(&self) -> Result<()> {
-        self.0.iter().try_for_each(|(layer, scale)| scale.check(&LAYERS, &format!("layers.{}", layer.name())))
-    }
-}
 
 /// What one layer is made of.
 #[derive(Default)]
@@ -246,17 +182,5 @@ mod tests {
         }
         assert_eq!(layers.points()[0].irradiance, [0.5, 1.0, 1.5]);
         assert_eq!(layers.horizon_altitude(), -0.01);
-    }
-
-    #[test]
-    fn names_read_back_and_factors_have_a_range() {
-        for layer in Layer::ALL {
-            assert_eq!(layer.name().parse::<Layer>().unwrap(), layer);
-            assert_eq!(serde_json::to_string(&layer).unwrap(), format!("\"{}\"", layer.name()));
-        }
-        assert!("comets".parse::<Layer>().is_err());
-        let scales = LayerScales([(Layer::Stars, -1.0)].into());
-        assert!(scales.validate().unwrap_err().to_string().starts_with("layers.stars = -1: must be"));
-        assert_eq!(LayerScales::default().of(Layer::Moon), 1.0);
     }
 }

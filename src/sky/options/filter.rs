@@ -36,7 +36,7 @@ impl PolarisingFilter {
     }
 
     /// What Q and U count in the direction of `altitude` and `azimuth` [radians, from north through east].
-    pub(super) fn weights(&self, altitude: f64, azimuth: f64) -> [f64; 2] {
+    pub(in crate::sky) fn weights(&self, altitude: f64, azimuth: f64) -> [f64; 2] {
         let angle = self.angle_deg.to_radians();
         let Some(towards) = self.held_towards_deg else {
             return [self.strength * (2.0 * angle).cos(), self.strength * (2.0 * angle).sin()];

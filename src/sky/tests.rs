@@ -1,9 +1,16 @@
+use super::composition::lamp;
+use super::sunlight::Sunlight;
 use super::*;
 use crate::atmosphere::AirParameters;
+use crate::ephemeris::{Place, SunModel};
 use crate::error::Error;
+use crate::progress::Progress;
 use crate::quality::Quality;
-use crate::sky::{PolarisingFilter, SkyDome, SkyLight};
+use crate::spectrum::{ColorSpace, Gamut};
+use crate::time::{Time, ZoneChoice};
+use crate::units::Scale;
 use glam::DVec3;
+use std::sync::Arc;
 
 fn sky(atmosphere: &Arc<Atmosphere>, altitude_deg: f64, elevation_m: f64) -> Sky {
     Sky::with_sun(altitude_deg, 200.0, elevation_m, Arc::clone(atmosphere)).unwrap()
@@ -12,12 +19,12 @@ fn sky(atmosphere: &Arc<Atmosphere>, altitude_deg: f64, elevation_m: f64) -> Sky
 /// XYZ by one gather in just this direction.
 fn directly(sky: &Sky, altitude: f64, azimuth: f64) -> [f64; 3] {
     let field = sky.field(&Progress::silent()).unwrap();
-    let from_sun = azimuth - sky.sun.azimuth_deg.to_radians();
+    let from_sun = azimuth - sky.sun().azimuth_deg.to_radians();
     let gathered = field.gather(&sky.observer(), altitude.sin(), &[from_sun]);
-    let sun = sky.sun.altitude_deg.to_radians();
+    let sun = sky.sun().altitude_deg.to_radians();
     let cosine = altitude.sin() * sun.sin() + altitude.cos() * sun.cos() * from_sun.cos();
     let mut xyz = [0.0; 3];
-    for (w, weight) in sky.xyz_weights().unwrap().iter().enumerate() {
+    for (w, weight) in Sunlight::of(sky).xyz_weights().unwrap().iter().enumerate() {
         let value = field.radiance(&gathered, 0, w, cosine);
         for k in 0..3 {
             xyz[k] += value * weight[k];
@@ -103,7 +110,7 @@ fn a_tolerance_holds_through_a_filter_too() {
     let sky = sky(&atmosphere, 25.0, 0.0);
     let filter = PolarisingFilter { strength: 0.9, angle_deg: 35.0, held_towards_deg: Some([30.0, 100.0]) };
     let dome = sky.filtered_light(Some(&filter), Some(0.01), &Progress::silent()).unwrap();
-    let weights = sky.xyz_weights().unwrap();
+    let weights = Sunlight::of(&sky).xyz_weights().unwrap();
     let field = sky.field(&Progress::silent()).unwrap();
     let mut squares = 0.0;
     let n = 150;
@@ -217,8 +224,7 @@ fn light_that_is_not_finite_is_an_error_before_its_colour_is_changed() {
     let atmosphere = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, false).unwrap());
     let silent = Progress::silent();
     for distance_au in [0.0, f64::NAN] {
-        let mut sky = sky(&atmosphere, 30.0, 0.0);
-        sky.sun.distance_au = distance_au;
+        let sky = sky(&atmosphere, 30.0, 0.0).with_sun_distance_au(distance_au);
         for gamut in [Gamut::Keep, Gamut::Clip, Gamut::Desaturate] {
             let lamp = sky.sun_irradiance_rgb(Scale::Luminance, ColorSpace::LinRec709, gamut, &silent);
             assert!(matches!(lamp, Err(Error::Data { .. })), "{distance_au} {gamut:?}: {lamp:?}");
@@ -240,9 +246,9 @@ fn the_illuminance_of_the_sky_is_the_integral_of_its_spectra() {
         for (altitude, tolerance) in [(88.0, 1e-3), (40.0, 1e-3), (8.0, 1e-3), (0.0, 1e-3), (-4.0, 1e-3), (-10.0, 2e-3)] {
             let sky = sky(&atmosphere, altitude, 0.0);
             let field = sky.field(&Progress::silent()).unwrap();
-            let weights = sky.sky_weights().unwrap();
+            let weights = Sunlight::of(&sky).sky_weights().unwrap();
             let by_spectra = |nodes: Nodes| {
-                let spectrum = sky.diffuse_horizontal(field, nodes, &Progress::silent()).unwrap();
+                let spectrum = Sunlight::of(&sky).diffuse_horizontal(field, nodes, &Progress::silent()).unwrap();
                 crate::units::LUMINOUS_EFFICACY * spectrum.iter().zip(&weights).map(|(value, w)| value * w[1]).sum::<f64>()
             };
             let exact = by_spectra(Nodes { circles: 96, azimuths: 400 });
@@ -272,7 +278,48 @@ fn the_air_refracts_as_the_standard_atmosphere() {
     for (apparent_deg, minutes) in
         [(0.0, 33.009), (0.5, 27.652), (1.0, 23.543), (2.0, 17.785), (5.0, 9.664), (10.0, 5.222), (20.0, 2.598), (45.0, 0.953)]
     {
-        let seen = sky(&atmosphere, apparent_deg - minutes / 60.0, 0.0).sun.apparent_altitude_deg;
+        let seen = sky(&atmosphere, apparent_deg - minutes / 60.0, 0.0).sun().apparent_altitude_deg;
         assert!((seen - apparent_deg).abs() < 0.005 * minutes / 60.0, "{apparent_deg}: {seen}");
     }
+}
+
+#[test]
+fn the_layers_that_are_named_are_those_that_are_made() {
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+    let place = Place::new(55.7, 13.2, 0.0).unwrap();
+    let night = NightOptions { star_limit: 3.0, ..Default::default() };
+    for (text, night, model, count) in [
+        ("2005-06-21T13:00:00+02:00", night, Model::Scattering, 4),
+        ("2005-01-10T23:00:00+01:00", night, Model::Scattering, 8),
+        ("2005-01-10T23:00:00+01:00", NightOptions { bortle: Some(5), ..night }, Model::Scattering, 9),
+        ("2005-01-10T23:00:00+01:00", NightOptions { when: When::Never, ..night }, Model::Scattering, 2),
+        ("2005-06-21T13:00:00+02:00", NightOptions { when: When::Always, ..night }, Model::Scattering, 8),
+        ("2005-06-21T13:00:00+02:00", NightOptions { when: When::Always, ..night }, Model::Preetham, 2),
+    ] {
+        let time = Time::parse(text, ZoneChoice::InText).unwrap();
+        let sky = Sky::new(place, time, SunModel::Iau, air.clone()).unwrap().with_night(night).unwrap();
+        let named = sky.layers_by(model);
+        assert_eq!(named, sky.light_by(&model.into(), &Progress::silent()).unwrap().names(), "{text} {night:?}");
+        assert_eq!(named.len(), count, "{text} {night:?}");
+    }
+    let put = Sky::with_sun(-20.0, 0.0, 0.0, air).unwrap();
+    assert_eq!(put.layers_by(Model::Scattering), [Layer::Sky, Layer::Sun]);
+}
+
+#[test]
+fn a_sky_says_whether_its_spectra_lack_light_that_is_in_its_pictures() {
+    let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
+    let lund = Place::new(55.7, 13.2, 0.0).unwrap();
+    let at = |text: &str, place: Place, when: When| {
+        let time = Time::parse(text, ZoneChoice::InText).unwrap();
+        let sky = Sky::new(place, time, SunModel::Iau, air.clone()).unwrap();
+        sky.with_night(NightOptions { when, ..Default::default() }).unwrap().has_more_than_sunlight()
+    };
+    let (noon, midnight) = ("2005-06-21T13:00:00+02:00", "2005-01-10T00:30:00+01:00");
+    assert!(!at(noon, lund, When::Auto) && at(noon, lund, When::Always));
+    assert!(at(midnight, lund, When::Auto) && at(midnight, lund, When::Always) && !at(midnight, lund, When::Never));
+    // The Sun totally eclipsed over Reims.
+    assert!(at("1999-08-11T10:26:30Z", Place::new(49.254, 4.03, 100.0).unwrap(), When::Auto));
+    let put = |altitude: f64| Sky::with_sun(altitude, 0.0, 0.0, air.clone()).unwrap().has_more_than_sunlight();
+    assert!(!put(30.0) && !put(-6.0) && put(-20.0) && put(-90.0));
 }
