@@ -430,8 +430,8 @@ def test_ctrl_c_interrupts_the_work(whole_solve: tuple[float, int]) -> None:
 
 def test_other_threads_run_during_the_work(whole_solve: tuple[float, int]) -> None:
     seconds, turns = whole_solve
-    # With the interpreter held there would be no turn at all; the machine may be busy, so a fifth of them will do.
-    assert turns > seconds / 0.005 / 5, f"{turns} turns in {seconds} s"
+    # With the interpreter held there would be no turn at all; the machine may be busy, so a twentieth of them will do.
+    assert turns > seconds / 0.005 / 20, f"{turns} turns in {seconds} s"
 
 
 # Runs in a process of its own, so that a hang is one of that process. Each child says what it saw.
