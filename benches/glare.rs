@@ -30,7 +30,8 @@ fn options(state: AdaptationState, glaring: Glaring) -> GlareOptions {
 /// The thesis: the filter is put over each glaring pixel. Only scattered light, for the time it takes.
 fn pixel_by_pixel(source: &Picture, threshold: f32, reach: isize) -> Vec<f32> {
     let scatter = Scatter::new(AdaptationState::Photopic, source.color_space, 0, 1.0);
-    let kernel = PlanarKernel::new(source, &scatter).unwrap();
+    let grid = source.grid();
+    let kernel = PlanarKernel::new(grid.azimuthal().unwrap(), &scatter);
     let side = 2 * reach + 1;
     let filter: Vec<[f32; 3]> = (0..side * side).map(|k| kernel.at(k % side - reach, reach - k / side)).collect();
     let (width, height) = (source.width as isize, source.height as isize);

@@ -67,7 +67,8 @@ fn photograph(probe: &Probe, camera: &Camera, azimuth_deg: f64) -> skyprobe::Res
             for part in 0..PARTS * PARTS {
                 let dx = ((part % PARTS) as f64 + 0.5) / PARTS as f64 + column as f64 - 0.5 * width as f64;
                 let dy = ((part / PARTS) as f64 + 0.5) / PARTS as f64 + row as f64 - 0.5 * height as f64;
-                let (x, y) = grid.coordinates((forward + right * dx * scale - up * dy * scale).normalize());
+                let (x, y) =
+                    grid.coordinates((forward + right * dx * scale - up * dy * scale).normalize()).expect("all directions");
                 let nearest = |at: f64, size: usize| (at.max(0.0) as usize).min(size - 1);
                 let pixel = probe.pixel(nearest(x.rem_euclid(probe.width as f64), probe.width), nearest(y, probe.height));
                 (0..3).for_each(|k| sum[k] += pixel[k] / (PARTS * PARTS) as f32);

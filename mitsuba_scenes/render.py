@@ -26,13 +26,14 @@ class Parser(argparse.ArgumentParser):
 
 def arguments(given=None):
     parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-    place = parser.add_argument_group("the light: a place and a time, a Sun that is put, or a probe that is there")
+    place = parser.add_argument_group("the light: a place and a time, a Sun that is put, a configuration, or a probe that is there")
     place.add_argument("--latitude", "--lat", type=float, metavar="DEG", help="north positive, -90 to 90 [degrees]")
     place.add_argument("--longitude", "--lon", type=float, metavar="DEG", help="east positive, -180 to 180 [degrees]")
     place.add_argument("--elevation", type=float, default=0.0, metavar="M", help="height above the sea [m]")
     place.add_argument("--time", metavar="TIME", help="ISO 8601, such as 2005-06-21T17:00:00+02:00; without offset it is local time")
     place.add_argument("--sun-altitude", type=float, metavar="DEG", help="instead of place and time [degrees]")
     place.add_argument("--sun-azimuth", type=float, metavar="DEG", help="from north through east [degrees]")
+    place.add_argument("--config", type=Path, metavar="FILE", help="a configuration: JSON, or a picture of skyprobe whose header holds it")
     place.add_argument("--probe", type=Path, metavar="FILE", help="a probe rendered before, with its rows on the corners")
     air = parser.add_argument_group("the air")
     air.add_argument("--preset", default="clear", metavar="NAME", help="clear, hazy, polluted, urban, maritime, desert, ... (default: clear)")
@@ -51,9 +52,9 @@ def arguments(given=None):
 
     by_place = [options.latitude, options.longitude, options.time]
     by_sun = [options.sun_altitude, options.sun_azimuth]
-    ways = [any(value is not None for value in way) for way in (by_place, by_sun, [options.probe])]
+    ways = [any(value is not None for value in way) for way in (by_place, by_sun, [options.config], [options.probe])]
     if sum(ways) != 1:
-        parser.error("give either --latitude, --longitude and --time, or --sun-altitude and --sun-azimuth, or --probe")
+        parser.error("give either --latitude, --longitude and --time, or --sun-altitude and --sun-azimuth, or --config, or --probe")
     if ways[0] and None in by_place:
         parser.error("a place and a time need all of --latitude, --longitude and --time")
     if ways[1] and None in by_sun:
@@ -65,7 +66,15 @@ def arguments(given=None):
         parser.error(f"output = {options.output}: must be a file name that ends in .exr")
     if not os.access(options.output.absolute().parent, os.W_OK):
         parser.error(f"output = {options.output}: must be in a folder that can be written to")
-    for name, path in (("probe", options.probe), ("scene", options.scene)):
+    if options.config is not None and (options.preset, options.turbidity, options.ground, options.quality, options.elevation) != (
+        "clear",
+        None,
+        None,
+        "standard",
+        0.0,
+    ):
+        parser.error("--config says the air and the elevation: leave --preset, --turbidity, --ground, --quality and --elevation out")
+    for name, path in (("config", options.config), ("probe", options.probe), ("scene", options.scene)):
         if path is not None and not path.is_file():
             parser.error(f"{name} = {path}: must be a file")
     return options
@@ -75,30 +84,28 @@ def check_files(options, outputs):
     """Refuses, before any work, to write over what is read, over what is read-only, or twice to one file."""
     import skyprobe as sp
 
-    sp.check_files([path for path in (options.probe, options.scene) if path is not None], outputs)
+    sp.check_files([path for path in (options.config, options.probe, options.scene) if path is not None], outputs)
 
 
 def make_probe(options, path):
     """Computes the probe that the options describe and writes it to `path`."""
     import skyprobe as sp
 
-    given = {"preset": options.preset, "turbidity": options.turbidity, "ground": options.ground, "quality": options.quality}
-    air = sp.Atmosphere(**{name: value for name, value in given.items() if value is not None})
-    if options.sun_altitude is not None:
-        sky = sp.Sky.with_sun(
-            altitude_deg=options.sun_altitude, azimuth_deg=options.sun_azimuth, elevation_m=options.elevation, atmosphere=air
-        )
+    air = {"preset": options.preset, "turbidity": options.turbidity, "ground": options.ground, "quality": options.quality}
+    if options.config is not None:
+        scene = sp.Scene.load(options.config)
+    elif options.sun_altitude is not None:
+        sun = {"altitude_deg": options.sun_altitude, "azimuth_deg": options.sun_azimuth}
+        scene = sp.Scene(sun=sun, elevation_m=options.elevation, atmosphere=air)
     else:
-        sky = sp.Sky(
-            latitude=options.latitude,
-            longitude=options.longitude,
-            elevation_m=options.elevation,
-            time=options.time,
-            atmosphere=air,
-        )
-    print(f"Sun at altitude {sky.sun.altitude_deg:.2f}, azimuth {sky.sun.azimuth_deg:.2f} degrees")
+        place = {"latitude": options.latitude, "longitude": options.longitude, "elevation_m": options.elevation}
+        scene = sp.Scene(**place, time=options.time, atmosphere=air)
     # Mitsuba puts the first and the last row on the poles.
-    sky.render(width=options.probe_width, scale="mitsuba", rows="corner").save(str(path))
+    picture = {"scale": "mitsuba", "rows": "corner", "projection": "latlong", "extent": "full", "turn_deg": 0.0}
+    scene = scene.replace(probe={**picture, "width": options.probe_width}, file=None)
+    sun = scene.sky().sun
+    print(f"Sun at altitude {sun.altitude_deg:.2f}, azimuth {sun.azimuth_deg:.2f} degrees")
+    scene.render_to_files([path])
 
 
 def load_mitsuba(variant):

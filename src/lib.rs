@@ -34,6 +34,7 @@ pub mod places;
 pub mod post;
 pub mod probe;
 pub mod progress;
+pub mod projection;
 #[cfg(feature = "python")]
 mod python;
 pub mod quality;

@@ -311,7 +311,7 @@ def test_a_wrong_night_is_named(keywords: dict[str, Any], message: str) -> None:
 def test_wrong_layers_are_named(air: sp.Atmosphere) -> None:
     sky = sky_at(air, LUND, FULL_MOON)
     wrong: list[tuple[dict[Any, float], str]] = [
-        ({"comets": 1.0}, r'layers = "comets": must be sky, sun, moon, stars, planets, milky_way, zodiacal, airglow, light_pollution'),
+        ({"comets": 1.0}, r'layers = "comets": must be one of sky, sun, moon, stars, planets, milky_way, zodiacal, airglow, light_pollution'),
         ({"stars": -1.0}, r"layers\.stars = -1: must be a number from 0 to 1000000000"),
         ({"stars": float("nan")}, r"layers\.stars = NaN: must be"),
     ]

@@ -602,7 +602,7 @@ def test_the_command_line_is_the_same_from_python(tmp_path: pathlib.Path) -> Non
     assert (tmp_path / "sky.exr").is_file()
     bad = run("render", "--lat", "91", "--lon", "0", "--time", "2005-06-21T13:00Z", "-o", "bad.exr")
     assert bad.returncode == 2
-    assert bad.stderr == "error: latitude = 91: must be a number from -90 to 90 degrees\n"
+    assert bad.stderr == "error: --latitude = 91: must be a number from -90 to 90 degrees\n"
     assert not (tmp_path / "bad.exr").exists()
 
 

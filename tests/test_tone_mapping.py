@@ -52,7 +52,7 @@ def test_numbers_and_exposures_are_taken_and_refused_by_name(pixels: numpy.ndarr
         ({"ev100": 3.0, "aperture": 8.0}, "ev100 = 3: must be None"),
         ({"aperture": 8.0}, "shutter_s = None: must be given"),
         ({"ev100": 3.0, "exposure_stops": 1.0}, "exposure_stops = 1: must be 0"),
-        ({"display": "crt"}, "display = \"crt\": must be srgb"),
+        ({"display": "crt"}, "display = \"crt\": must be one of srgb"),
         ({"adaptation": -1.0}, "adaptation = -1: must be"),
         ({"projection": "cube"}, "projection"),
     ]:

@@ -12,6 +12,10 @@ Changing the place or the time never solves again, so share one ``Atmosphere`` b
 (1024, 2048, 3)
 >>> probe.save("sky.exr")
 
+A :class:`Scene` is all of that as one value, as the command line's configurations and the headers of pictures hold it:
+
+>>> sp.Scene(place="Lund, Sweden", time="2005-06-21T13:00", atmosphere={"turbidity": 3.0}, probe={"width": 512}).render()
+
 Conventions
 -----------
 - Directions are unit vectors, x = east, y = north, z = up. Azimuth in degrees from north through east, altitude in degrees
@@ -58,6 +62,7 @@ from ._core import (
     Probe,
     RiseAndSet,
     ScaleWarning,
+    Scene,
     Sky,
     SolarEclipse,
     SunEvents,
@@ -85,6 +90,7 @@ __all__ = [
     "Probe",
     "RiseAndSet",
     "ScaleWarning",
+    "Scene",
     "Sky",
     "SolarEclipse",
     "SunEvents",

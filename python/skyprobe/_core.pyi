@@ -64,6 +64,7 @@ __all__ = [
     "Probe",
     "RiseAndSet",
     "ScaleWarning",
+    "Scene",
     "Sky",
     "SolarEclipse",
     "SunEvents",
@@ -663,6 +664,100 @@ class Night:
         """Share of the artificial light that comes from white LEDs."""
 
 @final
+class Scene:
+    """All that a probe is made from: place and time or a Sun that is put, air, night, picture and files. It reads and writes the configurations of the command line, and what
+    the headers of pictures hold.
+
+    Keys are those of a configuration (``skyprobe schema``); tables such as ``atmosphere`` are dictionaries. What is left out has its default; unknown keys, values
+    out of range and what contradicts itself are an :class:`InputError`.
+
+    >>> scene = sp.Scene(place="Lund, Sweden", time="2005-06-21T13:00", atmosphere={"turbidity": 3}, probe={"width": 512})
+    >>> probe = scene.render()
+
+    Scenes are equal if all of their values are; they pickle and copy.
+    """
+
+    def __new__(cls, **keys: object) -> Scene: ...
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Scene:
+        """The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from."""
+
+    @classmethod
+    def from_json(cls, text: str) -> Scene:
+        """The scene of a JSON text."""
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the scene as JSON, every value written out; the file appears whole or not at all."""
+
+    def to_json(self) -> str:
+        """The scene as JSON, every value written out."""
+
+    def to_dict(self) -> dict[str, object]:
+        """The scene as a dictionary, every value written out."""
+
+    def replace(self, **keys: object) -> Scene:
+        """The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away.
+
+        >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
+        """
+
+    def atmosphere(self, *, cache: bool = True) -> Atmosphere:
+        """The air of the scene, not solved yet. One air serves all scenes that differ in place, time, night and picture only.
+
+        Parameters
+        ----------
+        cache
+            As for ``Atmosphere``.
+        """
+
+    def sky(self, atmosphere: Atmosphere | None = None) -> Sky:
+        """The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
+
+        Parameters
+        ----------
+        atmosphere
+            The air, if it is there already; None for that of the scene.
+        """
+
+    def render(
+        self, atmosphere: Atmosphere | None = None, *, progress: _Progress | None = None
+    ) -> Probe:
+        """Render the picture of the scene.
+
+        Parameters
+        ----------
+        atmosphere
+            As for ``sky``.
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
+    def render_to_files(
+        self,
+        paths: Sequence[str | os.PathLike[str]] | None = None,
+        atmosphere: Atmosphere | None = None,
+        *,
+        progress: _Progress | None = None,
+    ) -> None:
+        """Render the picture of the scene into files, which appear together or not at all.
+
+        Parameters
+        ----------
+        paths
+            Names of files that end in .exr, .hdr or .png; None for those of the scene's ``output``.
+        atmosphere
+            As for ``sky``.
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
+    def __copy__(self) -> Scene:
+        """The scene itself, which cannot be changed."""
+
+    def __deepcopy__(self, _memo: object, /) -> Scene:
+        """The scene itself, which cannot be changed."""
+
+@final
 class Sky:
     """An atmosphere seen from a place at a time.
 
@@ -676,7 +771,7 @@ class Sky:
         ISO 8601 text, an aware ``datetime``, or a ``date``, which is its noon. A text without offset is local time in ``zone``; it may be a date alone
         or "now". What has to be assumed (clocks show it never or twice, noon) is a :class:`TimeWarning`, and ``time_notice``.
     atmosphere
-        The air.
+        The air; None for ``Atmosphere()``, the clear one, which is solved once in a process.
     elevation_m
         Height of the observer above the sea, -500 to 60000. [m]
     zone
@@ -698,7 +793,7 @@ class Sky:
         latitude: float,
         longitude: float,
         time: str | datetime.datetime | datetime.date,
-        atmosphere: Atmosphere,
+        atmosphere: Atmosphere | None = None,
         elevation_m: float = 0.0,
         zone: str | None = None,
         sun_model: Literal["iau", "thesis"] = "iau",
@@ -710,7 +805,7 @@ class Sky:
         *,
         altitude_deg: float,
         azimuth_deg: float,
-        atmosphere: Atmosphere,
+        atmosphere: Atmosphere | None = None,
         elevation_m: float = 0.0,
         model: _Model = "scattering",
     ) -> Sky:
@@ -723,12 +818,16 @@ class Sky:
         azimuth_deg
             From north through east. [degrees]
         atmosphere
-            The air.
+            The air; None for ``Atmosphere()``, the clear one, which is solved once in a process.
         elevation_m
             Height of the observer above the sea, -500 to 60000. [m]
         model
             As for ``Sky``.
         """
+
+    @property
+    def scene(self) -> Scene | None:
+        """The scene that makes this sky again, with the picture that ``render`` makes by default; None if its air was given as a profile."""
 
     @property
     def latitude(self) -> float | None:
@@ -1033,6 +1132,10 @@ class Probe:
     @property
     def pixels(self) -> NDArray[numpy.float32]:
         """The pixels, linear, shape (H, W, 3): always the same array, not a copy. What is written to it is what ``save`` saves."""
+
+    @property
+    def scene(self) -> Scene | None:
+        """The scene that makes this probe again; None if its air was given as a profile."""
 
     @property
     def width(self) -> int:

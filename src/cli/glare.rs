@@ -4,7 +4,6 @@ use super::picture_options::{PictureOptions, repairs_in_words};
 use super::{files, say, terminal};
 use crate::error::{Error, Result};
 use crate::io::{Format, write_picture};
-use crate::post::View;
 use crate::post::glare::{GlareOptions, Glaring, glare};
 use clap::Args;
 use std::path::PathBuf;
@@ -93,11 +92,7 @@ pub fn run(options: &Options) -> Result<()> {
         write_picture(&options.output, &picture, progress)?;
         Ok(report)
     })?;
-    let view = match picture.view {
-        View::LatLong { .. } => "latlong".to_owned(),
-        View::Perspective { horizontal_field_of_view_deg: angle } => format!("perspective, {angle} degrees"),
-        View::Fisheye { field_of_view_deg: angle } => format!("fisheye, {angle} degrees"),
-    };
+    let view = picture.view;
     let threshold = report.threshold.map_or("all light".to_owned(), |threshold| format!("light above {threshold:.4} cd/m2"));
     let (state, mean, glaring) = (report.state.name(), report.mean_luminance, report.glaring_pixels);
     say(&format!(

@@ -10,7 +10,7 @@
 
 use super::{PictureLimits, exr, hdr};
 use crate::error::{Error, Result, quoted};
-use crate::post::picture::{DEFAULT_FIELD_OF_VIEW_DEG, PictureProjection, WHITE_LUMINANCES};
+use crate::post::picture::{PictureProjection, WHITE_LUMINANCES};
 use crate::post::{Picture, View};
 use crate::probe::{Extent, Rows};
 use crate::spectrum::color_space::transform;
@@ -155,11 +155,11 @@ fn view(fields: &BTreeMap<String, String>, hints: &PictureHints, notes: &mut Vec
     let extent = said(fields, "extent", notes, |name| name.parse::<Extent>().ok()).filter(|_| is_fisheye);
     // Of which fields of view there are pictures, the picture says.
     let of_file = said(fields, "field_of_view_deg", notes, |text| {
-        finite(text).filter(|angle| (1e-3..=if is_fisheye { 360.0 } else { 179.0 }).contains(angle))
+        finite(text).filter(|angle| projection.fields_of_view_deg().contains(angle))
     });
     let of_file = of_file.or(extent.map(|extent| if extent == Extent::Full { 360.0 } else { 180.0 }));
-    let default = if is_fisheye { 180.0 } else { DEFAULT_FIELD_OF_VIEW_DEG };
-    projection.view(rows, hints.field_of_view_deg.or(of_file).unwrap_or(default))
+    let angle = hints.field_of_view_deg.or(of_file).unwrap_or(projection.default_field_of_view_deg());
+    projection.view(rows, angle)
 }
 
 /// The luminance of 1.0 that the header says [cd m-2]; what cannot be one counts as not said, with a note.

@@ -4,8 +4,8 @@ use super::exr::{self, Packing};
 use super::png::{self, Depth};
 use super::{Format, hdr, write_atomically};
 use crate::error::{Error, Result};
+use crate::post::Picture;
 use crate::post::tone::{Display, Sheet, ToneMapper};
-use crate::post::{Picture, View};
 use crate::progress::Progress;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::Path;
@@ -110,12 +110,9 @@ fn fields(picture: &Picture) -> Vec<(String, String)> {
     if !picture.white_luminance_assumed {
         fields.push(("white_luminance", picture.white_luminance.to_string()));
     }
-    match picture.view {
-        View::LatLong { rows } => fields.push(("rows", rows.name().to_owned())),
-        View::Perspective { horizontal_field_of_view_deg: angle } | View::Fisheye { field_of_view_deg: angle } => {
-            fields.push(("field_of_view_deg", angle.to_string()));
-        }
-    }
+    let rows = picture.view.rows().map(|rows| ("rows", rows.name().to_owned()));
+    let angle = picture.view.field_of_view_deg().map(|angle| ("field_of_view_deg", angle.to_string()));
+    fields.extend(rows.into_iter().chain(angle));
     if picture.turn_deg != 0.0 {
         fields.push(("turn_deg", picture.turn_deg.to_string()));
     }

@@ -1,10 +1,11 @@
 //! A linear picture with what its numbers and its pixels mean: all that glare and tone mapping need to know.
 
 use crate::error::{Error, Result, check_range};
-use crate::probe::{Extent, Probe, ProbeSettings, Projection, Rows};
+use crate::probe::Probe;
+use crate::projection::Grid;
+pub use crate::projection::{DEFAULT_FIELD_OF_VIEW_DEG, PictureProjection, View};
 use crate::spectrum::color_space::ColorSpace;
 use crate::units::Scale;
-use crate::words::words;
 use rayon::prelude::*;
 
 /// Greatest width and height [pixels].
@@ -12,78 +13,6 @@ pub const MAX_SIDE: usize = 32768;
 
 /// Largest value that is kept: what is brighter, infinity above all, becomes this. Sums of a whole picture of it stay finite.
 pub const LARGEST: f32 = 1e30;
-
-/// Where the pixels of a picture look.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum View {
-    /// All directions, twice as wide as high: row 0 at the zenith, columns by azimuth, the left border joins the right one. A probe of the upper half of the
-    /// sky is the upper half of such a picture.
-    LatLong {
-        /// Where the centres of the rows lie.
-        rows: Rows,
-    },
-    /// A pinhole camera.
-    Perspective {
-        /// Angle between the left and the right border [degrees], above 0 to 179.
-        horizontal_field_of_view_deg: f64,
-    },
-    /// A circle, distance from its centre in proportion to the angle from the zenith.
-    Fisheye {
-        /// Angle between opposite borders [degrees], above 0 to 360.
-        field_of_view_deg: f64,
-    },
-}
-
-/// Horizontal field of view of a perspective picture of which nobody says it [degrees]: Blender's first camera, 50 mm on 36 mm.
-pub const DEFAULT_FIELD_OF_VIEW_DEG: f64 = 39.6;
-
-/// The kind of a [`View`], as users name it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PictureProjection {
-    /// [`View::LatLong`].
-    LatLong,
-    /// [`View::Perspective`].
-    Perspective,
-    /// [`View::Fisheye`].
-    Fisheye,
-}
-
-words!(PictureProjection, "projection", { LatLong => "latlong", Perspective => "perspective", Fisheye => "fisheye" });
-
-impl PictureProjection {
-    /// The view of this kind, of which each takes what it needs: `rows`, or the field of view [degrees].
-    pub const fn view(self, rows: Rows, field_of_view_deg: f64) -> View {
-        match self {
-            Self::LatLong => View::LatLong { rows },
-            Self::Perspective => View::Perspective { horizontal_field_of_view_deg: field_of_view_deg },
-            Self::Fisheye => View::Fisheye { field_of_view_deg },
-        }
-    }
-}
-
-impl View {
-    /// The view of a probe with `settings`, which a fisheye shows in full.
-    pub fn of(settings: &ProbeSettings) -> Self {
-        match settings.projection {
-            Projection::LatLong => Self::LatLong { rows: settings.rows },
-            Projection::Fisheye => Self::Fisheye {
-                field_of_view_deg: match settings.extent {
-                    Extent::Full => 360.0,
-                    Extent::Upper => 180.0,
-                },
-            },
-        }
-    }
-
-    /// Its kind.
-    pub const fn projection(self) -> PictureProjection {
-        match self {
-            Self::LatLong { .. } => PictureProjection::LatLong,
-            Self::Perspective { .. } => PictureProjection::Perspective,
-            Self::Fisheye { .. } => PictureProjection::Fisheye,
-        }
-    }
-}
 
 /// How many values of a picture were not those of light ([`Picture::repair`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -130,7 +59,7 @@ pub struct Picture {
     pub view: View,
     /// What the header that it came with says and nobody understands, so that it was left aside, a sentence each.
     pub notes: Vec<String>,
-    /// How far a sky in it is turned clockwise, as [`ProbeSettings::turn_deg`] [degrees]: nothing here depends on it, but what is made of the picture is turned as well.
+    /// How far a sky in it is turned clockwise, as [`ProbeSettings::turn_deg`](crate::probe::ProbeSettings::turn_deg) [degrees]: nothing here depends on it, but what is made of the picture is turned as well.
     pub turn_deg: f64,
 }
 
@@ -159,14 +88,9 @@ impl Picture {
             }
         }
         check_range("white_luminance", white_luminance, *WHITE_LUMINANCES.start(), *WHITE_LUMINANCES.end(), "cd m-2")?;
-        match view {
-            View::LatLong { .. } => {}
-            View::Perspective { horizontal_field_of_view_deg: angle } => {
-                check_range("field_of_view_deg", angle, 1e-3, 179.0, "degrees")?;
-            }
-            View::Fisheye { field_of_view_deg: angle } => {
-                check_range("field_of_view_deg", angle, 1e-3, 360.0, "degrees")?;
-            }
+        if let Some(angle) = view.field_of_view_deg() {
+            let allowed = view.projection().fields_of_view_deg();
+            check_range("field_of_view_deg", angle, *allowed.start(), *allowed.end(), "degrees")?;
         }
         if pixels.len() != 3 * width * height {
             return Err(Error::data(format!(
@@ -186,6 +110,11 @@ impl Picture {
             notes: Vec::new(),
             turn_deg: 0.0,
         })
+    }
+
+    /// The geometry of its pixels.
+    pub fn grid(&self) -> Grid {
+        self.view.grid((self.width, self.height), self.turn_deg)
     }
 
     /// What is to be told of a luminance that had to be assumed; `None` if it was said.
@@ -221,7 +150,7 @@ impl From<Probe> for Picture {
     /// The picture of a probe.
     fn from(probe: Probe) -> Self {
         let settings = &probe.settings;
-        let view = View::of(settings);
+        let view = settings.view();
         let (color_space, white_luminance) = (settings.color_space, Scale::white_luminance(settings.scale));
         let turn_deg = settings.turn_deg;
         Self {

@@ -19,7 +19,8 @@
 //! rather than energy.
 
 use super::disc_scan::scan;
-use super::grid::Grid;
+use super::seams::Mover;
+use crate::projection::{Geometry, direction};
 use crate::sky::Disc;
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
@@ -68,7 +69,7 @@ struct Target {
 /// The energies of the pixels of `grid` that draw `disc`, of which only the part above `horizon_altitude` [radians] is seen.
 ///
 /// The disc's irradiance belongs to that part; if an image of the upper half cuts more of it off, that much is missing.
-pub(crate) fn draw(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> Raster {
+pub(crate) fn draw(disc: &Disc, horizon_altitude: f64, grid: &dyn Geometry) -> Raster {
     let (raster, target) = cover(disc, horizon_altitude, grid);
     let Some(target) = target else { return raster };
     let down = target.vector[1].z < 0.0;
@@ -76,7 +77,8 @@ pub(crate) fn draw(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> Raster {
         let (vector, upward) = (target.vector[channel], target.upward[channel]);
         DVec3::new(vector.x, vector.y, if down { upward - vector.z } else { upward })
     };
-    let moments = Moments::of(&raster, grid, down);
+    let movers = Mover::of(grid, raster.pixels());
+    let moments = Moments::of(&movers, grid, down);
     let mut moved = Raster::new(raster.width);
     // Limb darkening differs between X, Y and Z, and with it the share of each row: every channel has its own fit.
     for channel in 0..3 {
@@ -84,12 +86,12 @@ pub(crate) fn draw(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> Raster {
         let Some(shift) = fit(sums, goal(channel)) else { continue };
         let reached = shift.mix(sums);
         let scale = goal(channel).dot(reached) / reached.length_squared();
-        for (column, row, energy) in raster.pixels() {
+        for (mover, energy) in &movers {
             for (down, along_rows) in [(0, 1.0 - shift.row_fraction), (shift.row, shift.row_fraction)] {
                 for (right, along_columns) in [(0, 1.0 - shift.column_fraction), (shift.column, shift.column_fraction)] {
                     let weight = along_rows * along_columns;
                     if weight > 0.0 {
-                        let (column, row) = grid.neighbour(column, row, right, down);
+                        let (column, row) = mover.moved(grid, right, down);
                         let mut part = [0.0; 3];
                         part[channel] = energy[channel] * scale * weight;
                         moved.add(column, row, part);
@@ -102,17 +104,19 @@ pub(crate) fn draw(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> Raster {
 }
 
 /// The energy inside each footprint, and what the disc itself gives; no target if nothing of it is seen.
-fn cover(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> (Raster, Option<Target>) {
-    let mut raster = Raster::new(grid.size().0);
+fn cover(disc: &Disc, horizon_altitude: f64, grid: &dyn Geometry) -> (Raster, Option<Target>) {
+    let (width, height) = grid.size();
+    let mut raster = Raster::new(width);
     let reach = grid.reach();
     let mut seen = [DVec3::ZERO; 3];
     let mut target = Target { vector: [DVec3::ZERO; 3], upward: [0.0; 3] };
     let cut = FRAC_PI_2 - horizon_altitude;
+    let circles = grid.latlong();
     let (row_knots, column_step) = knots(disc, grid);
     let column_knots = |theta: f64, from: f64, to: f64, out: &mut Vec<f64>| {
-        let (step, offset) = match grid {
-            Grid::LatLong(image) => (column_step, (image.azimuth(image.column_knot_offset()) / column_step).rem_euclid(1.0)),
-            Grid::Fisheye(_) => (column_step / theta.sin().max(0.01), 0.0),
+        let (step, offset) = match circles {
+            Some(image) => (column_step, (image.azimuth(image.column_knot_offset()) / column_step).rem_euclid(1.0)),
+            None => (column_step / theta.sin().max(0.01), 0.0),
         };
         let first = (from / step - offset).floor() + 1.0;
         let last = (to / step - offset).ceil();
@@ -120,7 +124,7 @@ fn cover(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> (Raster, Option<Tar
     };
     let only_row = only_row(disc, cut, grid);
     scan(disc, cut, &row_knots, column_knots, |sample| {
-        let direction = super::latlong::direction(sample.theta, sample.azimuth);
+        let direction = direction(sample.theta, sample.azimuth);
         for (sum, weight) in seen.iter_mut().zip(sample.weight) {
             *sum += weight * direction;
         }
@@ -131,8 +135,8 @@ fn cover(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> (Raster, Option<Tar
             target.vector[channel] += sample.weight[channel] * direction;
             target.upward[channel] += sample.weight[channel] * direction.z.max(0.0);
         }
-        match grid {
-            Grid::LatLong(image) => {
+        match circles {
+            Some(image) => {
                 let columns = image.columns_at(sample.azimuth);
                 let rows = only_row.map(|row| [(row, 1.0), (row, 0.0)]).or_else(|| image.rows_at(sample.theta));
                 for (row, along_rows) in rows.into_iter().flatten() {
@@ -144,10 +148,9 @@ fn cover(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> (Raster, Option<Tar
                     }
                 }
             }
-            Grid::Fisheye(image) => {
-                let (x, y) = image.coordinates(direction);
-                let last = image.width() - 1;
-                raster.add((x.max(0.0) as usize).min(last), (y.max(0.0) as usize).min(last), sample.weight);
+            None => {
+                let Some((x, y)) = grid.coordinates(direction) else { return };
+                raster.add((x.max(0.0) as usize).min(width - 1), (y.max(0.0) as usize).min(height - 1), sample.weight);
             }
         }
     });
@@ -166,8 +169,8 @@ fn cover(disc: &Disc, horizon_altitude: f64, grid: &Grid) -> (Raster, Option<Tar
 }
 
 /// The row that holds the middle of a disc lower than a row: all its energy starts there, so that the fit shares it among two rows and never three.
-fn only_row(disc: &Disc, cut: f64, grid: &Grid) -> Option<usize> {
-    let Grid::LatLong(image) = grid else { return None };
+fn only_row(disc: &Disc, cut: f64, grid: &dyn Geometry) -> Option<usize> {
+    let image = grid.latlong()?;
     if 2.0 * disc.vertical_radius > image.step() {
         return None;
     }
@@ -175,17 +178,17 @@ fn only_row(disc: &Disc, cut: f64, grid: &Grid) -> Option<usize> {
     image.rows_at(centre)?.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(row, _)| row)
 }
 
-/// Zenith angles and step in azimuth (for a fisheye, along the circle) [radians] between which footprints are smooth.
-fn knots(disc: &Disc, grid: &Grid) -> (Vec<f64>, f64) {
+/// Zenith angles and step in azimuth (for images whose rows are no circles, along the circle) [radians] between which footprints are smooth.
+fn knots(disc: &Disc, grid: &dyn Geometry) -> (Vec<f64>, f64) {
     let centre = disc.direction.truncate().length().atan2(disc.direction.z);
     let (from, to) = (centre - disc.vertical_radius, centre + disc.vertical_radius);
-    let (mut rows, step) = match grid {
-        Grid::LatLong(image) => {
+    let (mut rows, step) = match grid.latlong() {
+        Some(image) => {
             (image.row_knots().filter(|knot| (from..to).contains(knot)).collect::<Vec<_>>(), 2.0 * PI / image.width() as f64)
         }
-        // Square pixels lie across the circles, so there is no knot: parts of a quarter of a pixel instead.
-        Grid::Fisheye(image) => {
-            let step = 0.5 * image.reach() / image.width() as f64;
+        // Pixels lie across the circles, so there is no knot: parts of a quarter of a pixel instead.
+        None => {
+            let step = 0.25 * grid.pixel_angle();
             ((0..=((to - from) / step) as usize).map(|k| from + k as f64 * step).collect(), step)
         }
     };
@@ -209,11 +212,11 @@ struct Shift {
 }
 
 impl Moments {
-    fn of(raster: &Raster, grid: &Grid, down: bool) -> Self {
+    fn of(movers: &[(Mover, [f64; 3])], grid: &dyn Geometry, down: bool) -> Self {
         let mut sums = [[[DVec3::ZERO; 3]; 3]; 3];
-        for (column, row, energy) in raster.pixels() {
+        for (mover, energy) in movers {
             for (down_by, right_by) in [-1, 0, 1].into_iter().flat_map(|i| [-1, 0, 1].map(|j| (i, j))) {
-                let (column, row) = grid.neighbour(column, row, right_by, down_by);
+                let (column, row) = mover.moved(grid, right_by, down_by);
                 let footprint = grid.footprint(column, row);
                 let mean = footprint.mean_direction;
                 let third = if down { footprint.mean_upward - mean.z } else { footprint.mean_upward };

@@ -14,7 +14,7 @@
 //! Both integrals use the sine of a parameter as variable, which removes the square roots at the ends; they are cut at
 //! knots where the caller's integrand has edges, so that the coverage of pixels is exact rather than sampled.
 
-use super::quadrature::GaussLegendre;
+use crate::projection::quadrature::GaussLegendre;
 use crate::sky::Disc;
 use std::f64::consts::PI;
 
@@ -142,8 +142,8 @@ fn pieces(rule: &GaussLegendre, from: f64, to: f64) -> impl Iterator<Item = (f64
 
 #[cfg(test)]
 mod tests {
-    use super::super::latlong::direction;
     use super::*;
+    use crate::projection::direction;
     use crate::sky::Surface;
     use glam::DVec3;
 

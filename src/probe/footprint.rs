@@ -4,9 +4,9 @@
 //! the kinks of the footprint and the horizon, so that a row which the horizon cuts gets exactly its shares of sky and ground.
 //! Columns are sampled in the same way. How many nodes there are depends on the width ([`Sampling::of`]): a pixel of 0.2 degrees needs one.
 
-use super::latlong::{LatLong, Row};
-use super::quadrature::GaussLegendre;
-use super::settings::{GroundView, Rows};
+use super::settings::GroundView;
+use crate::projection::quadrature::GaussLegendre;
+use crate::projection::{LatLong, Row, Rows};
 use std::f64::consts::FRAC_PI_2;
 
 /// How finely a footprint is sampled.

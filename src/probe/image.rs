@@ -1,8 +1,8 @@
 //! A rendered probe: pixels, and what they mean.
 
-use super::grid::Grid;
 use super::settings::ProbeSettings;
 use crate::error::{Error, Result};
+use crate::projection::Grid;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -62,7 +62,7 @@ impl Probe {
 
     /// The geometry of the pixels.
     pub fn grid(&self) -> Grid {
-        Grid::new(&self.settings)
+        self.settings.grid()
     }
 
     /// The three values of pixel (`column`, `row`).

@@ -9,7 +9,7 @@
 //! its light. For a sky that brightens sevenfold towards the horizon D is 0.6 % of the whole at 64 pixels and falls with the
 //! square of the width.
 
-use super::latlong::LatLong;
+use crate::projection::LatLong;
 
 /// Gives back what is missing. `pixels` are XYZ radiances, row-major; `missing` holds D_j of X, Y and Z per pixel [W m-2].
 pub(crate) fn restore_upward(image: &LatLong, pixels: &mut [f32], missing: &[f32]) {

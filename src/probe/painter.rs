@@ -2,17 +2,16 @@
 
 use super::conversion::Conversion;
 use super::disc;
-use super::fisheye::Fisheye;
 use super::footprint::{Node, Sampling, accumulate, column_samples, fold, nodes};
-use super::grid::Grid;
-use super::latlong::LatLong;
 use super::moments::restore_upward;
 use super::points;
-use super::quadrature::GaussLegendre;
-use super::settings::{Extent, GroundView, ProbeSettings};
+use super::settings::{GroundView, ProbeSettings};
 use crate::error::{Error, Result};
 use crate::progress::{Parts, Progress};
+use crate::projection::quadrature::GaussLegendre;
+use crate::projection::{Extent, Geometry, Grid, LatLong};
 use crate::sky::SkyLight;
+use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -24,7 +23,7 @@ pub struct Painter<'a> {
     grid: Grid,
     sampling: Sampling,
     rule: GaussLegendre,
-    /// Azimuths of the samples of a latitude-longitude image [radians].
+    /// Azimuths of the samples of an image whose rows are circles [radians].
     azimuths: Vec<f64>,
     kernel: Vec<(isize, f32)>,
     conversion: Conversion,
@@ -41,6 +40,8 @@ struct Workspace {
     circle: Vec<[f32; 3]>,
     sum: Vec<[f32; 3]>,
     missing: Vec<[f32; 3]>,
+    /// Directions and solid angles [sr] of the parts of a pixel.
+    parts: Vec<(DVec3, f64)>,
 }
 
 impl<'a> Painter<'a> {
@@ -50,16 +51,20 @@ impl<'a> Painter<'a> {
     /// [`Error::Input`] for settings that no image can have, [`Error::Cancelled`].
     pub fn new(sky: &'a dyn SkyLight, settings: &ProbeSettings, progress: &Progress<'a>) -> Result<Self> {
         settings.validate()?;
+        Self::on(settings.grid(), sky, settings, progress)
+    }
+
+    /// The same for a given geometry of the image.
+    pub(super) fn on(grid: Grid, sky: &'a dyn SkyLight, settings: &ProbeSettings, progress: &Progress<'a>) -> Result<Self> {
         progress.report("render", 0.0)?;
-        let grid = Grid::new(settings);
         let sampling = Sampling::of(settings.width);
-        let (azimuths, kernel) = match &grid {
-            Grid::LatLong(image) => {
+        let (azimuths, kernel) = match grid.latlong() {
+            Some(image) => {
                 let (places, kernel) = column_samples(image.rows(), sampling.columns);
                 let azimuth = |column: usize| places.iter().map(move |at| image.azimuth(column as f64 + at));
                 ((0..image.width()).flat_map(azimuth).collect(), kernel)
             }
-            Grid::Fisheye(_) => (Vec::new(), Vec::new()),
+            None => (Vec::new(), Vec::new()),
         };
         let mut painter = Self {
             sky,
@@ -69,15 +74,15 @@ impl<'a> Painter<'a> {
             azimuths,
             kernel,
             conversion: Conversion::new(settings),
-            drawn: drawn(sky, settings, &grid),
+            drawn: drawn(sky, settings, &*grid),
             smooth: Vec::new(),
             parts: progress.parts("render", grid.size().1),
             grid,
         };
         if sampling.restore {
-            painter.smooth = match &painter.grid {
-                Grid::LatLong(image) => painter.restored(image)?,
-                Grid::Fisheye(_) => Vec::new(),
+            painter.smooth = match painter.grid.latlong() {
+                Some(image) => painter.restored(image)?,
+                None => Vec::new(),
             };
         }
         Ok(painter)
@@ -110,7 +115,13 @@ impl<'a> Painter<'a> {
 
     fn workspace(&self) -> Workspace {
         let count = if self.smooth.is_empty() { self.azimuths.len() } else { 0 };
-        Workspace { nodes: Vec::new(), circle: vec![[0.0; 3]; count], sum: vec![[0.0; 3]; count], missing: Vec::new() }
+        Workspace {
+            nodes: Vec::new(),
+            circle: vec![[0.0; 3]; count],
+            sum: vec![[0.0; 3]; count],
+            missing: Vec::new(),
+            parts: Vec::new(),
+        }
     }
 
     fn paint_row(&self, row: usize, space: &mut Workspace, out: &mut [f32]) -> Result<()> {
@@ -119,9 +130,9 @@ impl<'a> Painter<'a> {
         }
         let pixels = out.as_chunks_mut::<3>().0;
         if self.smooth.is_empty() {
-            match &self.grid {
-                Grid::LatLong(image) => self.paint_circles(image, row, space, pixels),
-                Grid::Fisheye(image) => self.paint_fisheye_row(image, row, pixels),
+            match self.grid.latlong() {
+                Some(image) => self.paint_circles(image, row, space, pixels),
+                None => self.paint_parts(row, &mut space.parts, pixels),
             }
             self.parts.finish_one()?;
         }
@@ -192,23 +203,25 @@ impl<'a> Painter<'a> {
         Ok(pixels)
     }
 
-    fn paint_fisheye_row(&self, image: &Fisheye, row: usize, out: &mut [[f32; 3]]) {
-        let horizon = self.horizon();
+    /// One row of an image whose rows are no circles: each pixel by its parts, which `parts` has room for.
+    fn paint_parts(&self, row: usize, parts: &mut Vec<(DVec3, f64)>, out: &mut [[f32; 3]]) {
+        let (horizon, reach) = (self.horizon(), self.grid.reach());
         for (column, pixel) in out.iter_mut().enumerate() {
             *pixel = [0.0; 3];
-            let (near, far) = image.zenith_range(column, row);
-            if near > image.reach() {
+            let (near, far) = self.grid.zenith_range(column, row);
+            if near > reach {
                 continue;
             }
             // The horizon is an edge, and the rim cuts pixels.
-            let edge = (near..=far).contains(&horizon) || (near..=far).contains(&FRAC_PI_2) || far >= image.reach();
+            let edge = (near..=far).contains(&horizon) || (near..=far).contains(&FRAC_PI_2) || far >= reach;
             let count = if edge { self.sampling.columns.max(8) } else { self.sampling.columns };
+            self.grid.parts(column, row, count, parts);
             let (mut sum, mut total) = ([0.0_f64; 3], 0.0);
-            image.visit_parts(column, row, count, |direction, weight| {
+            for &(direction, weight) in &*parts {
                 total += weight;
                 let theta = direction.truncate().length().atan2(direction.z);
                 let altitude = match self.settings.ground {
-                    GroundView::Off if theta > horizon => return,
+                    GroundView::Off if theta > horizon => continue,
                     GroundView::Mirrored => (FRAC_PI_2 - theta).abs(),
                     _ => FRAC_PI_2 - theta,
                 };
@@ -217,7 +230,7 @@ impl<'a> Painter<'a> {
                 for channel in 0..3 {
                     sum[channel] += weight * f64::from(value[0][channel]);
                 }
-            });
+            }
             if total > 0.0 {
                 *pixel = sum.map(|sum| (sum / total) as f32);
             }
@@ -244,7 +257,7 @@ fn check_finite(row: usize, pixels: &[[f32; 3]]) -> Result<()> {
 }
 
 /// Radiance that the discs and points of `sky` add to pixels, by row.
-fn drawn(sky: &dyn SkyLight, settings: &ProbeSettings, grid: &Grid) -> BTreeMap<usize, Vec<(usize, [f32; 3])>> {
+fn drawn(sky: &dyn SkyLight, settings: &ProbeSettings, grid: &dyn Geometry) -> BTreeMap<usize, Vec<(usize, [f32; 3])>> {
     let mut rows: BTreeMap<usize, Vec<(usize, [f32; 3])>> = BTreeMap::new();
     let mut add = |column: usize, row: usize, energy: [f64; 3]| {
         let solid_angle = grid.footprint(column, row).solid_angle;

@@ -3,14 +3,14 @@
 //! A point's energy goes to the four pixels around it, by the distances to their middles (bilinear), so that all of it is in the picture at every resolution and its mean position is where the
 //! point stands. A point thus has the size of a pixel, which is what a picture can hold of it.
 
-use super::grid::Grid;
+use crate::projection::Geometry;
 use crate::sky::Point;
 
 /// Calls `visit` with column, row and energy (irradiance of X, Y and Z) [W m-2] of the pixels that draw `points`. Points that the image does not hold are left out.
-pub(crate) fn draw(points: &[Point], grid: &Grid, mut visit: impl FnMut(usize, usize, [f64; 3])) {
+pub(crate) fn draw(points: &[Point], grid: &dyn Geometry, mut visit: impl FnMut(usize, usize, [f64; 3])) {
     let (width, height) = grid.size();
     for point in points {
-        let (x, y) = grid.coordinates(point.direction);
+        let Some((x, y)) = grid.coordinates(point.direction) else { continue };
         if !(0.0..=width as f64).contains(&x) || !(0.0..=height as f64).contains(&y) || grid.direction(x, y).is_none() {
             continue;
         }
@@ -37,9 +37,9 @@ fn nearest(x: f64, count: usize) -> (usize, isize, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::latlong::direction;
-    use super::super::{Extent, ProbeSettings, Projection, Rows};
     use super::*;
+    use crate::probe::{Extent, ProbeSettings, Projection, Rows};
+    use crate::projection::direction;
     use glam::DVec3;
     use proptest::prelude::*;
 
@@ -61,11 +61,11 @@ mod tests {
         /// All energy is there, and its mean direction is the point's within half a pixel.
         #[test]
         fn points_keep_their_energy_and_place(settings in settings(), theta in 0.0..std::f64::consts::PI, azimuth in 0.0..7.0_f64) {
-            let grid = Grid::new(&settings);
+            let grid = settings.grid();
             let towards = direction(theta, azimuth);
             let point = Point { direction: towards, irradiance: [1.0, 2.0, 0.5] };
             let (mut sum, mut mean) = (0.0, DVec3::ZERO);
-            draw(&[point], &grid, |column, row, energy| {
+            draw(&[point], &*grid, |column, row, energy| {
                 sum += energy[1];
                 let footprint = grid.footprint(column, row);
                 assert!(footprint.solid_angle > 0.0, "{column} {row}");
@@ -84,6 +84,6 @@ mod tests {
     fn what_an_image_does_not_hold_is_left_out() {
         let settings = ProbeSettings { extent: Extent::Upper, ..Default::default() };
         let point = Point { direction: direction(2.0, 0.3), irradiance: [1.0; 3] };
-        draw(&[point], &Grid::new(&settings), |_, _, _| panic!("nothing to draw"));
+        draw(&[point], &*settings.grid(), |_, _, _| panic!("nothing to draw"));
     }
 }

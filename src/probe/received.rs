@@ -8,14 +8,11 @@
 //! first column on of the integrals of L, L cos and L sin over azimuth give the integral of L c over any arc, exactly, from its two ends. The sums are made once for all planes; what is
 //! left is an integral over theta, by Gauss-Legendre nodes between the row's kinks and the angles at which the arc appears or becomes the whole circle, where tan(theta) = n_z / n_h.
 //!
-//! The pixels of a fisheye image are summed one by one; those that the plane cuts, in parts.
+//! The pixels of an image whose rows are no circles are summed one by one; those that the plane cuts, in parts.
 
-use super::fisheye::Fisheye;
-use super::grid::Grid;
 use super::image::Probe;
-use super::latlong::{LatLong, Row};
-use super::quadrature::GaussLegendre;
-use super::settings::Rows;
+use crate::projection::quadrature::GaussLegendre;
+use crate::projection::{Geometry, LatLong, Row, Rows};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -34,14 +31,18 @@ const NODES: [usize; 2] = [3, 10];
 
 /// Irradiance of planes that face `normals` (any length; a plane of length 0 receives nothing), in their order.
 pub(super) fn irradiances(probe: &Probe, normals: &[DVec3]) -> Vec<Rgb> {
-    let grid = probe.grid();
+    of(&*probe.grid(), probe.pixels.as_chunks::<3>().0, normals)
+}
+
+/// The same for `pixels` of a given geometry.
+pub(super) fn of(grid: &dyn Geometry, pixels: &[[f32; 3]], normals: &[DVec3]) -> Vec<Rgb> {
     normals
         .chunks(PLANES)
         .flat_map(|normals| {
             let normals: Vec<DVec3> = normals.iter().map(|&normal| unit_or_zero(normal)).collect();
-            match &grid {
-                Grid::LatLong(image) => on_circles(probe, image, &normals),
-                Grid::Fisheye(image) => on_disc(probe, image, &normals),
+            match grid.latlong() {
+                Some(image) => on_circles(pixels, image, &normals),
+                None => in_parts(pixels, grid, &normals),
             }
         })
         .collect()
@@ -187,7 +188,7 @@ struct Plane {
     ends: [f64; 2],
 }
 
-fn on_circles(probe: &Probe, image: &LatLong, normals: &[DVec3]) -> Vec<Rgb> {
+fn on_circles(pixels: &[[f32; 3]], image: &LatLong, normals: &[DVec3]) -> Vec<Rgb> {
     let columns = Columns::new(image);
     let first_knot = image.azimuth(image.column_knot_offset());
     let planes: Vec<Plane> = normals
@@ -205,7 +206,6 @@ fn on_circles(probe: &Probe, image: &LatLong, normals: &[DVec3]) -> Vec<Rgb> {
         })
         .collect();
     let rules = NODES.map(GaussLegendre::new);
-    let pixels = probe.pixels.as_chunks::<3>().0;
     sum_rows(image.height(), planes.len(), |rows, sums| {
         let mut from_first = Vec::with_capacity(image.width() + 1);
         for j in rows {
@@ -237,20 +237,18 @@ fn add_row(row: &Sums, image: &LatLong, found: &Row, plane: &Plane, rules: &[Gau
     }
 }
 
-fn on_disc(probe: &Probe, image: &Fisheye, normals: &[DVec3]) -> Vec<Rgb> {
-    let width = image.width();
+fn in_parts(pixels: &[[f32; 3]], image: &dyn Geometry, normals: &[DVec3]) -> Vec<Rgb> {
+    let (width, height) = image.size();
     // Half a diagonal of a pixel, with room.
-    let reach = 1.5 * image.reach() / width as f64;
-    let pixels = probe.pixels.as_chunks::<3>().0;
-    sum_rows(width, normals.len(), |rows, sums| {
+    let reach = 0.75 * image.pixel_angle();
+    sum_rows(height, normals.len(), |rows, sums| {
         let mut parts: Vec<(DVec3, f64)> = Vec::new();
         for (row, column) in rows.flat_map(|row| (0..width).map(move |column| (row, column))) {
             let value = pixels[row * width + column];
             if value == [0.0; 3] {
                 continue;
             }
-            parts.clear();
-            image.visit_parts(column, row, image.parts(column, row), |direction, weight| parts.push((direction, weight)));
+            image.parts(column, row, image.parts_per_side(column, row), &mut parts);
             let vector: DVec3 = parts.iter().map(|(direction, weight)| *weight * *direction).sum();
             let edge = reach * parts.iter().map(|(_, weight)| weight).sum::<f64>();
             for (normal, sum) in normals.iter().zip(sums.iter_mut()) {
@@ -268,13 +266,15 @@ fn on_disc(probe: &Probe, image: &Fisheye, normals: &[DVec3]) -> Vec<Rgb> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::settings::{Extent, ProbeSettings, Projection};
     use super::*;
+    use crate::probe::ProbeSettings;
+    use crate::projection::{Extent, Projection, direction};
     use crate::spectrum::ColorSpace;
 
     /// By brute force: each footprint in many parts.
-    fn in_parts(probe: &Probe, normal: DVec3) -> Rgb {
-        let Grid::LatLong(image) = probe.grid() else { panic!("a latitude-longitude image") };
+    fn by_force(probe: &Probe, normal: DVec3) -> Rgb {
+        let grid = probe.grid();
+        let image = grid.latlong().unwrap();
         let (corner, n) = (image.rows() == Rows::Corner, 60);
         let reach = if corner { 1.0 } else { 0.5 };
         let mut sum = [0.0; 3];
@@ -285,9 +285,9 @@ mod tests {
                     let theta = row.from + (row.to - row.from) * (f64::from(a) + 0.5) / f64::from(n);
                     let offset = reach * (2.0 * (f64::from(b) + 0.5) / f64::from(n) - 1.0);
                     let weight = theta.sin() * image.row_weight(row, theta) * if corner { 1.0 - offset.abs() } else { 1.0 };
-                    let direction = super::super::latlong::direction(theta, image.azimuth(i as f64 + 0.5 + offset));
+                    let towards = direction(theta, image.azimuth(i as f64 + 0.5 + offset));
                     weights += weight;
-                    seen += weight * normal.dot(direction).max(0.0);
+                    seen += weight * normal.dot(towards).max(0.0);
                 }
                 add(&mut sum, row.solid_angle * seen / weights, probe.pixel(i, j).map(f64::from));
             }
@@ -328,7 +328,7 @@ mod tests {
                 });
                 let found = irradiances(&probe, &NORMALS);
                 for (normal, found) in NORMALS.into_iter().zip(found) {
-                    let expected = in_parts(&probe, normal.normalize());
+                    let expected = by_force(&probe, normal.normalize());
                     for (found, expected) in found.into_iter().zip(expected) {
                         assert!(
                             (found - expected).abs() <= 2e-4 * expected + 1e-6,

@@ -1,7 +1,8 @@
 //! What a probe is asked to be.
 
-use crate::error::{Error, Result, check_range};
+use crate::error::{Result, check_range};
 use crate::parameter::parameters;
+use crate::projection::{Extent, Grid, Projection, Rows, View};
 use crate::spectrum::{ColorSpace, Gamut};
 use crate::units::Scale;
 use crate::words::{Words, words};
@@ -11,45 +12,6 @@ use serde::{Deserialize, Serialize};
 pub const MIN_WIDTH: usize = 64;
 /// Greatest width of a probe [pixels].
 pub const MAX_WIDTH: usize = 16384;
-
-/// How directions are laid out in the image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum Projection {
-    /// Longitude along x, latitude along y; see [`LatLong`](super::LatLong).
-    #[default]
-    LatLong,
-    /// Equidistant fisheye, zenith in the centre; see [`Fisheye`](super::Fisheye).
-    Fisheye,
-}
-
-words!(Projection, "projection", { LatLong => "latlong", Fisheye => "fisheye" });
-
-/// Where the rows of a latitude-longitude image lie; a fisheye image has no such choice and ignores it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum Rows {
-    /// Zenith angle of row j is pi (j + 0.5) / H: Blender and most viewers.
-    #[default]
-    Centre,
-    /// Zenith angle of row j is pi j / (H - 1), the first and last rows are the poles: Mitsuba.
-    Corner,
-}
-
-words!(Rows, "rows", { Centre => "centre", Corner => "corner" });
-
-/// How much of the sphere the image holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum Extent {
-    /// The whole sphere.
-    #[default]
-    Full,
-    /// The half above the horizontal plane.
-    Upper,
-}
-
-words!(Extent, "extent", { Full => "full", Upper => "upper" });
 
 /// What is seen below the true horizon.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -125,11 +87,17 @@ impl ProbeSettings {
 
     /// Height of the image [pixels]: width for a fisheye; for latitude-longitude half of the width, or a quarter for the upper half.
     pub fn height(&self) -> usize {
-        match (self.projection, self.extent) {
-            (Projection::Fisheye, _) => self.width,
-            (Projection::LatLong, Extent::Full) => self.width / 2,
-            (Projection::LatLong, Extent::Upper) => self.width / 4,
-        }
+        self.projection.height(self.width, self.extent)
+    }
+
+    /// What the image says of its projection.
+    pub const fn view(&self) -> View {
+        self.projection.view(self.rows, self.extent)
+    }
+
+    /// The geometry of the image; for settings that [`Self::validate`] accepts.
+    pub fn grid(&self) -> Grid {
+        self.view().grid((self.width, self.height()), self.turn_deg)
     }
 
     /// Checks that an image of these settings can be made.
@@ -138,13 +106,7 @@ impl ProbeSettings {
     /// [`Error::Input`] that names the width, if it is out of range or does not divide into whole rows, or the turn, if it is out of range.
     pub fn validate(&self) -> Result<()> {
         self.check_ranges()?;
-        if !self.width.is_multiple_of(2) {
-            return Err(Error::input("width", self.width, "even"));
-        }
-        if self.projection == Projection::LatLong && self.extent == Extent::Upper && !self.width.is_multiple_of(4) {
-            return Err(Error::input("width", self.width, "a multiple of 4 for the upper half (the image is 4:1)"));
-        }
-        Ok(())
+        self.projection.check_width(self.width, self.extent)
     }
 }
 

@@ -4,7 +4,6 @@ use super::arrays;
 use super::errors::InputError;
 use crate::error::check_range;
 use crate::probe::{self, ProbeSettings};
-use crate::scene::json;
 use crate::sky::{Layer, LayerScales};
 use glam::DVec3;
 use pyo3::prelude::*;

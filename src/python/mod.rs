@@ -11,12 +11,15 @@ mod errors;
 mod filter;
 mod fork;
 mod night;
+mod pickle;
 mod places;
 mod post;
 mod probe;
 mod results;
+mod scene;
 mod sky;
 mod tone;
+mod values;
 mod work;
 
 use pyo3::prelude::*;
@@ -39,6 +42,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<air::Phase>()?;
     module.add_class::<filter::PolarisingFilter>()?;
     module.add_class::<night::Night>()?;
+    module.add_class::<scene::Scene>()?;
     module.add_class::<sky::Sky>()?;
     module.add_class::<probe::Probe>()?;
     module.add_class::<bodies::Body>()?;

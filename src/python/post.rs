@@ -106,10 +106,7 @@ pub fn picture(
     };
     let values = array.try_readonly().map_err(|error| wrong(error.to_string()))?.to_vec()?;
     let projection: PictureProjection = projection.parse()?;
-    let angle = field_of_view_deg.unwrap_or(match projection {
-        PictureProjection::Fisheye => 180.0,
-        PictureProjection::LatLong | PictureProjection::Perspective => crate::post::picture::DEFAULT_FIELD_OF_VIEW_DEG,
-    });
+    let angle = field_of_view_deg.unwrap_or(projection.default_field_of_view_deg());
     let view = projection.view(rows.parse()?, angle);
     Ok(Picture::new(width, height, values, color_space.parse()?, white_luminance, view)?)
 }
@@ -208,8 +205,8 @@ pub fn point_spread_function<'py>(
     wavelengths_nm: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let state: AdaptationState = state.parse()?;
-    let angles = arrays::number_or_vector("angles_deg", angles_deg)?;
-    let wavelengths = arrays::number_or_vector("wavelengths_nm", wavelengths_nm)?;
+    let angles = arrays::vector("angles_deg", angles_deg)?;
+    let wavelengths = arrays::vector("wavelengths_nm", wavelengths_nm)?;
     for &angle in &angles {
         crate::error::check_range("angles_deg", angle, 0.0, 180.0, "degrees")?;
     }

@@ -18,36 +18,38 @@ pub fn describe(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: 
         utc_offset_s: time.map(|time| -f64::from(time.utc_offset_s())),
         sun_altitude_deg: Some(sun.altitude_deg),
         sun_azimuth_deg: Some(sun.azimuth_deg),
-        config_json: config_of(sky, sun_model, light, settings).map(|config| config.to_value().to_string()),
+        config_json: Scene::of(sky, sun_model, light, settings).map(|config| config.to_value().to_string()),
         comments: None,
     }
 }
 
-/// The configuration that makes a probe of `sky` again; `None` if its air was given as a profile.
-fn config_of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Option<Scene> {
-    let (place, time, atmosphere, sun) = (sky.place(), sky.time(), sky.atmosphere(), sky.sun());
-    let put = SunPosition { altitude_deg: sun.altitude_deg, azimuth_deg: sun.azimuth_deg };
-    Some(Scene {
-        latitude: place.map(|place| place.latitude_deg),
-        longitude: place.map(|place| place.longitude_deg),
-        elevation_m: sky.elevation_m(),
-        place_label: None,
-        time: time.map(Time::to_string),
-        zone: time.and_then(Time::zone_name).map(str::to_string),
-        sun: place.is_none().then_some(put),
-        sun_model,
-        light: light.clone(),
-        night: *sky.night(),
-        atmosphere: SceneAtmosphere {
-            air: atmosphere.parameters()?.clone(),
-            quality: atmosphere.quality(),
-            polarisation: atmosphere.is_polarised(),
-            wavelengths_nm: atmosphere.chosen_wavelengths().map(<[f64]>::to_vec),
-        },
-        probe: settings.clone(),
-        file: FileOptions::default(),
-        output: Vec::new(),
-    })
+impl Scene {
+    /// The scene that makes a probe of `sky` again; `None` if its air was given as a profile.
+    pub fn of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Option<Scene> {
+        let (place, time, atmosphere, sun) = (sky.place(), sky.time(), sky.atmosphere(), sky.sun());
+        let put = SunPosition { altitude_deg: sun.altitude_deg, azimuth_deg: sun.azimuth_deg };
+        Some(Scene {
+            latitude: place.map(|place| place.latitude_deg),
+            longitude: place.map(|place| place.longitude_deg),
+            elevation_m: sky.elevation_m(),
+            place_label: None,
+            time: time.map(Time::to_string),
+            zone: time.and_then(Time::zone_name).map(str::to_string),
+            sun: place.is_none().then_some(put),
+            sun_model,
+            light: light.clone(),
+            night: *sky.night(),
+            atmosphere: SceneAtmosphere {
+                air: atmosphere.parameters()?.clone(),
+                quality: atmosphere.quality(),
+                polarisation: atmosphere.is_polarised(),
+                wavelengths_nm: atmosphere.chosen_wavelengths().map(<[f64]>::to_vec),
+            },
+            probe: settings.clone(),
+            file: FileOptions::default(),
+            output: Vec::new(),
+        })
+    }
 }
 
 /// Date and time as OpenEXR's `capDate` wants them.

@@ -3,7 +3,7 @@
 use super::super::{Metadata, own_fields};
 use super::Packing;
 use crate::post::{Picture, View};
-use crate::probe::{ProbeSettings, Projection};
+use crate::probe::ProbeSettings;
 use crate::spectrum::ColorSpace;
 use std::collections::BTreeMap;
 
@@ -60,7 +60,7 @@ pub fn header(settings: &ProbeSettings, metadata: &Metadata, packing: &Packing) 
 pub fn picture_header(picture: &Picture, fields: Vec<(String, String)>, packing: &Packing) -> Vec<u8> {
     let mut attributes = Attributes(BTreeMap::new());
     put_layout(&mut attributes, packing);
-    let wrap_modes = if matches!(picture.view, View::LatLong { .. }) { "periodic,clamp" } else { "black" };
+    let wrap_modes = wrap_modes(picture.view);
     let white_luminance = (!picture.white_luminance_assumed).then_some(picture.white_luminance);
     put_values(&mut attributes, picture.color_space, white_luminance, wrap_modes);
     for (name, value) in fields {
@@ -104,12 +104,14 @@ fn put_layout(attributes: &mut Attributes, packing: &Packing) {
     attributes.float("screenWindowWidth", 1.0);
 }
 
+/// What lies beyond the borders, for the attribute of that name.
+fn wrap_modes(view: View) -> &'static str {
+    if matches!(view, View::LatLong { .. }) { "periodic,clamp" } else { "black" }
+}
+
 /// What the numbers in the file are.
 fn put_meaning(attributes: &mut Attributes, settings: &ProbeSettings, metadata: &Metadata, scale: f32) {
-    let wrap_modes = match settings.projection {
-        Projection::LatLong => "periodic,clamp",
-        Projection::Fisheye => "black",
-    };
+    let wrap_modes = wrap_modes(settings.view());
     let white_luminance = settings.scale.white_luminance() / f64::from(scale);
     put_values(attributes, settings.color_space, Some(white_luminance), wrap_modes);
     let places = [("latitude", metadata.latitude_deg), ("longitude", metadata.longitude_deg), ("altitude", metadata.elevation_m)];

@@ -2,6 +2,7 @@
 
 use super::super::{FileOptions, Metadata, save, tests::gradient, write_picture};
 use super::*;
+use crate::post::picture::DEFAULT_FIELD_OF_VIEW_DEG;
 use crate::post::tone::{Frame, ToneMapper, ToneMapping};
 use crate::probe::{ProbeSettings, Projection};
 use crate::progress::Progress;

@@ -2,7 +2,7 @@
 
 use super::sphere;
 use crate::error::Result;
-use crate::post::{Picture, View};
+use crate::post::Picture;
 use rayon::prelude::*;
 
 /// Geometric mean of the luminance of all pixels that have any [cd m-2], as Reinhard et al. 2002 (eq. 1) take for a scene's key; pixels of a latitude-longitude picture count by their solid angle.
@@ -12,11 +12,9 @@ use rayon::prelude::*;
 /// [`Error::Input`](crate::Error::Input) for a latitude-longitude picture that is neither 2:1 nor 4:1.
 pub fn mean_luminance(picture: &Picture) -> Result<f64> {
     let weights = picture.color_space.matrix_to_xyz()[1].map(|weight| weight * picture.white_luminance);
-    let row_weights: Vec<f64> = match picture.view {
-        View::LatLong { rows } => {
-            sphere::geometry(picture.width, picture.height, rows)?.table().iter().map(|row| row.solid_angle).collect()
-        }
-        View::Perspective { .. } | View::Fisheye { .. } => vec![1.0; picture.height],
+    let row_weights: Vec<f64> = match picture.grid().azimuthal() {
+        Some(_) => vec![1.0; picture.height],
+        None => sphere::geometry(picture)?.table().iter().map(|row| row.solid_angle).collect(),
     };
     let row_sum = |(row, weight): (&[f32], &f64)| {
         let (mut sum, mut count) = (0.0, 0.0);
@@ -38,7 +36,7 @@ pub fn mean_luminance(picture: &Picture) -> Result<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::probe::Rows;
+    use crate::projection::{Rows, View};
     use crate::spectrum::ColorSpace;
 
     #[test]

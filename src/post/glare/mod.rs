@@ -22,7 +22,7 @@ mod tests;
 
 pub use psf::{AdaptationState, point_spread};
 
-use super::{Picture, Repairs, View};
+use super::{Picture, Repairs};
 use crate::error::{Result, check_range};
 use crate::progress::Progress;
 use convolve::{Convolution, Kernel};
@@ -113,8 +113,9 @@ pub struct GlareReport {
 /// picture half done.
 pub fn glare(picture: &mut Picture, options: &GlareOptions, progress: &Progress<'_>) -> Result<GlareReport> {
     options.validate()?;
-    if let View::LatLong { rows } = picture.view {
-        sphere::geometry(picture.width, picture.height, rows)?;
+    let grid = picture.grid();
+    if grid.azimuthal().is_none() {
+        sphere::geometry(picture)?;
     }
     let repairs = picture.repair();
     let mean_luminance = adaptation::mean_luminance(picture)?;
@@ -133,8 +134,9 @@ pub fn glare(picture: &mut Picture, options: &GlareOptions, progress: &Progress<
     let mut report = GlareReport { state, mean_luminance, threshold, glaring_pixels, too_bright, unscattered: [1.0; 3], repairs };
     if glaring_pixels > 0 {
         let scatter = Scatter::new(state, picture.color_space, options.seed, options.streaks);
-        report.unscattered = match PlanarKernel::new(picture, &scatter) {
-            Some(kernel) => {
+        report.unscattered = match grid.azimuthal() {
+            Some(image) => {
+                let kernel = PlanarKernel::new(image, &scatter);
                 let reach = |side: usize| (0.5 * options.size * side as f64).ceil() as usize;
                 let size = (picture.width, picture.height);
                 let convolution = Convolution::new(size, (reach(size.0), reach(size.1)), &kernel);

@@ -11,55 +11,28 @@
 //! latitude-longitude probe glare is right everywhere ([`sphere`](super::sphere)).
 
 use super::scatter::Scatter;
-use crate::post::{Picture, View};
+use crate::projection::Azimuthal;
 
 /// What lies within this distance [pixels] is averaged over the area of its pixel.
 const AVERAGED_WITHIN: f32 = 24.0;
 
-/// Geometry of a flat picture.
-#[derive(Clone, Copy, Debug)]
-enum Scale {
-    Perspective { focal_length: f32 },
-    Fisheye { step: f32 },
-}
-
 /// The scattered part of a source's light by the offset from it in pixels.
 pub struct PlanarKernel<'a> {
     scatter: &'a Scatter,
-    scale: Scale,
+    image: &'a dyn Azimuthal,
 }
 
 impl<'a> PlanarKernel<'a> {
-    /// For the pixels of `picture`; `None` if it is a latitude-longitude picture.
-    pub fn new(picture: &Picture, scatter: &'a Scatter) -> Option<Self> {
-        let width = picture.width as f64;
-        let scale = match picture.view {
-            View::LatLong { .. } => return None,
-            View::Perspective { horizontal_field_of_view_deg: angle } => {
-                Scale::Perspective { focal_length: (0.5 * width / (0.5 * angle.to_radians()).tan()) as f32 }
-            }
-            View::Fisheye { field_of_view_deg: angle } => Scale::Fisheye { step: (angle.to_radians() / width) as f32 },
-        };
-        Some(Self { scatter, scale })
+    /// For the pixels of `image`.
+    pub fn new(image: &'a dyn Azimuthal, scatter: &'a Scatter) -> Self {
+        Self { scatter, image }
     }
 
     /// Distance [pixels] beyond which channels are the same; 0 if they are everywhere.
     pub fn coloured_within(&self) -> f64 {
-        let angle = super::halo::END_DEG.to_radians();
-        let distance = match self.scale {
-            Scale::Perspective { focal_length } => f64::from(focal_length) * angle.tan(),
-            Scale::Fisheye { step } => angle / f64::from(step),
-        };
+        let distance = self.image.distance(super::halo::END_DEG.to_radians());
         // A pixel of the border has parts inside.
         if self.scatter.has_halo() { 1.01 * distance + 2.0 } else { 0.0 }
-    }
-
-    /// Size of a pixel in the centre [radians].
-    fn pixel(&self) -> f32 {
-        match self.scale {
-            Scale::Perspective { focal_length } => 1.0 / focal_length,
-            Scale::Fisheye { step } => step,
-        }
     }
 
     /// Share of the light of each channel that arrives in the pixel `right` and `up` of the source.
@@ -84,29 +57,14 @@ impl<'a> PlanarKernel<'a> {
     #[inline]
     fn point(&self, x: f32, y: f32, size: f32) -> [f32; 3] {
         let square = x * x + y * y;
-        let (chord_squared, solid_angle) = match self.scale {
-            Scale::Perspective { focal_length } => {
-                let q = square / (focal_length * focal_length);
-                let secant = (1.0 + q).sqrt();
-                (2.0 * q / (secant * (1.0 + secant)), 1.0 / (focal_length * focal_length * secant * secant * secant))
-            }
-            Scale::Fisheye { step } => {
-                let angle = step * square.sqrt();
-                if angle >= std::f32::consts::PI {
-                    return [0.0; 3];
-                }
-                let half = (0.5 * angle).sin();
-                let ratio = if angle < 1e-6 { 1.0 } else { angle.sin() / angle };
-                (4.0 * half * half, step * step * ratio)
-            }
-        };
+        let Some((chord_squared, solid_angle)) = self.image.chord_squared_and_solid_angle(square) else { return [0.0; 3] };
         let width = if self.scatter.has_streaks() { size / square.sqrt().max(1e-6) } else { 0.0 };
         self.scatter.at(chord_squared, (x, y), width).map(|value| value * solid_angle)
     }
 
     /// Equation 11 across one line of pixels, from offset 0 on, with the sum 1 over both sides: it is the product of such a line along x and one along y.
     pub fn unscattered(&self) -> Vec<f64> {
-        let size = f64::from(self.pixel()).to_degrees() / 0.02;
+        let size = f64::from(self.image.step()).to_degrees() / 0.02;
         // Larger pixels hold more than 0.999999 of it.
         if size > 7.0 {
             return vec![1.0];
@@ -126,39 +84,38 @@ impl<'a> PlanarKernel<'a> {
 mod tests {
     use super::super::psf::{self, AdaptationState};
     use super::*;
+    use crate::projection::{Fisheye, Perspective};
     use crate::spectrum::ColorSpace;
 
-    fn picture(view: View) -> Picture {
-        Picture::new(1000, 2, vec![0.0; 6000], ColorSpace::LinRec709, 683.0, view).unwrap()
+    fn perspective(angle: f64) -> Perspective {
+        Perspective::new(1000, 2, angle)
     }
 
     #[test]
     fn pixels_stand_at_their_true_angles() {
         let scatter = Scatter::new(AdaptationState::Photopic, ColorSpace::LinRec709, 0, 0.0);
         let expected = |angle: f64, solid_angle: f64| (0.478 * psf::corona(angle) + 0.138 * psf::veil(angle)) * solid_angle;
-        let wide = picture(View::Perspective { horizontal_field_of_view_deg: 90.0 });
+        let wide = perspective(90.0);
         // The border of a picture of 90 degrees stands at 45 degrees: focal length 500 pixels.
-        let found = PlanarKernel::new(&wide, &scatter).unwrap().at(0, -500)[1];
+        let found = PlanarKernel::new(&wide, &scatter).at(0, -500)[1];
         assert!((f64::from(found) / expected(45.0, 0.125f64.sqrt() / 250_000.0) - 1.0).abs() < 1e-4);
-        let round = picture(View::Fisheye { field_of_view_deg: 180.0 });
-        let kernel = PlanarKernel::new(&round, &scatter).unwrap();
+        let round = Fisheye::of_size(1000, 2, 180.0);
+        let kernel = PlanarKernel::new(&round, &scatter);
         let step = 0.18f64.to_radians();
         let found = kernel.at(300, -400)[0];
         assert!((f64::from(found) / expected(90.0, step * step / (0.5 * std::f64::consts::PI)) - 1.0).abs() < 1e-4);
         assert_eq!(kernel.at(1001, 0), [0.0; 3]);
-        assert!(PlanarKernel::new(&picture(View::LatLong { rows: crate::probe::Rows::Centre }), &scatter).is_none());
     }
 
     #[test]
     fn unscattered_light_adds_up_to_one_and_stays_in_large_pixels() {
         let scatter = Scatter::new(AdaptationState::Photopic, ColorSpace::LinRec709, 0, 0.0);
         for angle in [1.0, 5.0, 40.0, 170.0] {
-            let picture = picture(View::Perspective { horizontal_field_of_view_deg: angle });
-            let line = PlanarKernel::new(&picture, &scatter).unwrap().unscattered();
+            let line = PlanarKernel::new(&perspective(angle), &scatter).unscattered();
             assert!((line[0] + 2.0 * line[1..].iter().sum::<f64>() - 1.0).abs() < 1e-12);
         }
-        let fine = picture(View::Perspective { horizontal_field_of_view_deg: 10.0 });
-        let line = PlanarKernel::new(&fine, &scatter).unwrap().unscattered();
+        let fine = perspective(10.0);
+        let line = PlanarKernel::new(&fine, &scatter).unscattered();
         // checked against: erf(0.25) and erf(0.75) - erf(0.25), halved, pixels of 0.01 degrees (0.010025 in the centre of the picture), Abramowitz & Stegun table 7.1
         assert!((line[0] - 0.276_326_4).abs() < 1e-3 && (line[1] - 0.5 * (0.711_155_6 - 0.276_326_4)).abs() < 1e-3, "{line:?}");
     }

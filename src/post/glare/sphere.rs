@@ -16,9 +16,9 @@
 use super::scatter::Scatter;
 use super::streaks::LAST_CHORD_SQUARED;
 use crate::error::{Error, Result};
-use crate::post::{Picture, View};
-use crate::probe::{Extent, LatLong, Row, Rows};
+use crate::post::Picture;
 use crate::progress::{Parts, Progress};
+use crate::projection::{LatLong, Row};
 use rayon::prelude::*;
 use realfft::{RealFftPlanner, RealToComplex, num_complex::Complex};
 use std::f64::consts::PI;
@@ -39,17 +39,18 @@ const SAMPLES_PER_DISTANCE: f64 = 12.0;
 /// The geometry of a latitude-longitude picture.
 ///
 /// # Errors
-/// [`Error::Input`] if its sides are those of none.
-pub fn geometry(width: usize, height: usize, rows: Rows) -> Result<LatLong> {
-    let extent = match (width, height) {
-        (w, h) if w == 2 * h && h >= 2 => Extent::Full,
-        (w, h) if w == 4 * h && h >= 2 => Extent::Upper,
-        _ => {
-            let allowed = "left out for a picture that is neither 2:1 (latitude-longitude, full) nor 4:1 (its upper half)";
-            return Err(Error::input("projection", format!("latlong, {width} x {height}"), allowed));
-        }
+/// [`Error::Input`] for a picture of another projection, or if its sides are those of none.
+pub fn geometry(picture: &Picture) -> Result<LatLong> {
+    let (width, height) = (picture.width, picture.height);
+    let grid = picture.grid();
+    let Some(image) = grid.latlong() else {
+        return Err(Error::input("projection", picture.view, "latlong, perspective or fisheye"));
     };
-    Ok(LatLong::new(width, rows, extent))
+    if height < 2 || (width != 2 * height && width != 4 * height) {
+        let allowed = "left out for a picture that is neither 2:1 (latitude-longitude, full) nor 4:1 (its upper half)";
+        return Err(Error::input("projection", format!("latlong, {width} x {height}"), allowed));
+    }
+    Ok(image.clone())
 }
 
 /// Light of a row that glares: its spectrum by channel.
@@ -83,11 +84,8 @@ struct Sphere<'a> {
 /// # Errors
 /// [`Error::Input`] for a picture that is not such a probe; [`Error::Cancelled`].
 pub fn apply(picture: &mut Picture, share: &[f32], scatter: &Scatter, progress: &Progress<'_>) -> Result<[f64; 3]> {
-    let View::LatLong { rows } = picture.view else {
-        return Err(Error::input("projection", format!("{:?}", picture.view), "latlong"));
-    };
+    let image = geometry(picture)?;
     let (width, height) = (picture.width, picture.height);
-    let image = geometry(width, height, rows)?;
     let column = |k: usize| PI * k as f64 / width as f64;
     let turns = (0..width).map(|k| (column(k).sin().powi(2) as f32, (2.0 * column(k)).sin() as f32)).collect();
     let mut planner = RealFftPlanner::<f64>::new();

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::error::Error;
-use crate::probe::Rows;
+use crate::projection::{Extent, Geometry, LatLong, Rows, View};
 use crate::spectrum::ColorSpace;
 use proptest::prelude::*;
 
@@ -28,9 +28,7 @@ fn put(picture: &mut Picture, column: usize, row: usize, value: [f32; 3]) {
 /// Sum over pixels times solid angle, by channel.
 fn energy(picture: &Picture) -> [f64; 3] {
     let weights: Vec<f64> = match picture.view {
-        View::LatLong { rows } => {
-            sphere::geometry(picture.width, picture.height, rows).unwrap().table().iter().map(|row| row.solid_angle).collect()
-        }
+        View::LatLong { .. } => sphere::geometry(picture).unwrap().table().iter().map(|row| row.solid_angle).collect(),
         _ => vec![1.0; picture.height],
     };
     let mut sum = [0.0; 3];
@@ -44,7 +42,8 @@ fn energy(picture: &Picture) -> [f64; 3] {
 fn directly(source: &Picture, options: &GlareOptions) -> Vec<f64> {
     let (width, height) = (source.width as isize, source.height as isize);
     let scatter = Scatter::new(options.state.unwrap(), source.color_space, options.seed, options.streaks);
-    let kernel = PlanarKernel::new(source, &scatter).unwrap();
+    let grid = source.grid();
+    let kernel = PlanarKernel::new(grid.azimuthal().unwrap(), &scatter);
     let reach = |side: isize| ((0.5 * options.size * side as f64).ceil() as isize).min(side - 1);
     let (reach_x, reach_y) = (reach(width), reach(height));
     let line = kernel.unscattered();
@@ -152,13 +151,13 @@ fn a_source_on_a_probe_has_the_point_spread_function_around_it() {
     for row in [3, 40, 64] {
         let mut found = picture(256, 128, LATLONG);
         put(&mut found, 100, row, [1e7; 3]);
-        let image = sphere::geometry(256, 128, Rows::Centre).unwrap();
-        let source = image.direction(100.5, row as f64 + 0.5);
+        let image = LatLong::new(256, Rows::Centre, Extent::Full);
+        let source = image.direction(100.5, row as f64 + 0.5).unwrap();
         let light = 1e7 * image.table()[row].solid_angle;
         let options = GlareOptions { streaks: 0.0, ..everything(AdaptationState::Photopic) };
         glare(&mut found, &options, &Progress::silent()).unwrap();
         for (x, y) in [(100, row + 20), (130, row + 12), (228, 100), (0, 50), (255, 90), (60, 1)] {
-            let there = image.direction(x as f64 + 0.5, y as f64 + 0.5);
+            let there = image.direction(x as f64 + 0.5, y as f64 + 0.5).unwrap();
             let angle = source.angle_between(there).to_degrees();
             let expected = light * (0.478 * psf::corona(angle) + 0.138 * psf::veil(angle));
             let value = f64::from(found.pixels[3 * (y * 256 + x)]);

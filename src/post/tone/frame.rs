@@ -1,10 +1,10 @@
 //! A picture as tone mapping sees it: borrowed pixels, with what they mean and where they look.
 
 use crate::post::picture::{LARGEST, Picture, View};
-use crate::probe::{Probe, Rows};
+use crate::probe::Probe;
+use crate::projection::{Geometry, Grid};
 use crate::spectrum::color_space::{ColorSpace, Matrix, product};
 use crate::units::Scale;
-use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Exposed values over this are white in every operator; so their squares stay finite.
 const BRIGHTEST: f32 = 1e15;
@@ -44,7 +44,7 @@ impl<'a> From<&'a Probe> for Frame<'a> {
             pixels: &probe.pixels,
             color_space: settings.color_space,
             white_luminance: Scale::white_luminance(settings.scale),
-            view: View::of(settings),
+            view: settings.view(),
             turn_deg: settings.turn_deg,
         }
     }
@@ -66,44 +66,17 @@ impl Frame<'_> {
         self.pixels[3 * self.width * row..3 * self.width * (row + 1)].as_chunks::<3>().0
     }
 
-    /// Angle between neighbouring pixels in the middle of the picture, in the middle of a row [degrees].
-    pub fn degrees_per_pixel(&self) -> f64 {
-        match self.view {
-            View::LatLong { .. } => 360.0 / self.width as f64,
-            View::Fisheye { field_of_view_deg } => field_of_view_deg / self.width as f64,
-            View::Perspective { horizontal_field_of_view_deg: angle } => {
-                (2.0 * (0.5 * angle).to_radians().tan() / self.width as f64).atan().to_degrees()
-            }
-        }
+    /// The geometry of the pixels.
+    pub fn grid(&self) -> Grid {
+        self.view.grid((self.width, self.height), self.turn_deg)
     }
+}
 
-    /// Zenith angle of row `row` of a latitude-longitude picture [radians].
-    pub(super) fn zenith_angle(&self, rows: Rows, row: usize) -> f64 {
-        let span = if 4 * self.height <= self.width { FRAC_PI_2 } else { PI };
-        match rows {
-            Rows::Centre => span * (row as f64 + 0.5) / self.height as f64,
-            Rows::Corner => span * row as f64 / (self.height - 1).max(1) as f64,
-        }
-    }
-
-    /// Relative solid angle of a pixel, and 0 where a probe shows no sky: below the horizontal plane, outside a fisheye's circle.
-    pub(super) fn weight(&self, column: usize, row: usize) -> f64 {
-        let (x, y) = (column as f64 + 0.5 - 0.5 * self.width as f64, row as f64 + 0.5 - 0.5 * self.height as f64);
-        match self.view {
-            View::LatLong { rows } => {
-                let angle = self.zenith_angle(rows, row);
-                if angle < FRAC_PI_2 { angle.sin() } else { 0.0 }
-            }
-            View::Fisheye { field_of_view_deg } => {
-                let angle = x.hypot(y) * (field_of_view_deg / self.width as f64).to_radians();
-                let inside = x.hypot(y) < 0.5 * self.width as f64 && angle < FRAC_PI_2;
-                if inside { angle.sin() / angle.max(1e-9) } else { 0.0 }
-            }
-            View::Perspective { horizontal_field_of_view_deg: angle } => {
-                let focal = 0.5 * self.width as f64 / (0.5 * angle).to_radians().tan();
-                (1.0 + (x * x + y * y) / (focal * focal)).powf(-1.5)
-            }
-        }
+/// Solid angle of a pixel [sr] by that of its middle, and 0 where a probe shows no sky: on and below the horizontal plane, outside a fisheye's circle.
+pub(super) fn weight(grid: &dyn Geometry, column: usize, row: usize) -> f64 {
+    match grid.direction_and_density(column as f64 + 0.5, row as f64 + 0.5) {
+        Some((direction, density)) if direction.z > 1e-12 => density,
+        _ => 0.0,
     }
 }
 

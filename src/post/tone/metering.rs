@@ -3,7 +3,7 @@
 //! Of a probe only the upper half counts, by solid angle; of a camera's picture all pixels, by solid angle. The brightest 2 % (the Sun and its aureole, a lamp) and what
 //! is under a thousandth of the median count for no average.
 
-use super::frame::{Frame, dot, exposed};
+use super::frame::{Frame, dot, exposed, weight};
 
 /// Number of pixels that are looked at, about.
 const SAMPLES: usize = 100_000;
@@ -41,10 +41,11 @@ impl Metering {
         .into_iter()
         .fold((f64::MAX, 0.0f64), |(lowest, highest), (low, high)| (lowest.min(low.into()), highest.max(high.into())));
         let step = (frame.width * frame.height / SAMPLES).max(1);
+        let grid = frame.grid();
         let mut found: Vec<(f64, f64)> = (0..frame.width * frame.height)
             .step_by(step)
             .filter_map(|k| {
-                let weight = frame.weight(k % frame.width, k / frame.width);
+                let weight = weight(&*grid, k % frame.width, k / frame.width);
                 let pixel = [0, 1, 2].map(|channel| frame.pixels[3 * k + channel]);
                 let value = f64::from(exposed(&matrix, pixel)[0]);
                 (value > 0.0 && weight > 0.0).then_some((value, weight))

@@ -66,6 +66,7 @@ use frame::{dot, exposed, without_excess, without_negative};
 use gaussian::Edges;
 use rayon::prelude::*;
 use sky::{Curve, Rods, blurred_for_rods};
+use std::f64::consts::FRAC_PI_2;
 
 /// Least and greatest luminance that an eye or a meter can be told to be adapted to [cd m-2].
 pub const ADAPTATION_RANGE: (f64, f64) = (1e-8, 1e9);
@@ -361,9 +362,9 @@ impl<'a> Mapped<'a> {
 
 /// What lies beyond the borders of `frame`.
 fn edges(frame: &Frame<'_>) -> Edges {
-    match frame.view {
-        View::LatLong { .. } => Edges::Sphere { nadir: 4 * frame.height > frame.width },
-        View::Perspective { .. } | View::Fisheye { .. } => Edges::Clamped,
+    match frame.grid().latlong() {
+        Some(image) => Edges::Sphere { nadir: image.span() > FRAC_PI_2 },
+        None => Edges::Clamped,
     }
 }
 

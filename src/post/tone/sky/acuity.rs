@@ -9,7 +9,6 @@
 
 use super::rods::Rods;
 use crate::error::Result;
-use crate::post::picture::View;
 use crate::post::tone::frame::{Frame, exposed};
 use crate::post::tone::gaussian::blurred;
 use crate::progress::Progress;
@@ -30,15 +29,13 @@ pub fn resolvable_cycles_per_degree(adaptation: f64) -> f64 {
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn blurred_for_rods(frame: &Frame<'_>, adaptation: f64, loss: f64, progress: &Progress) -> Result<Option<Vec<f32>>> {
     let sigma_deg = loss / (2.0 * resolvable_cycles_per_degree(adaptation) * 12f64.sqrt());
-    let sigma = sigma_deg / frame.degrees_per_pixel();
+    let grid = frame.grid();
+    let sigma = sigma_deg / grid.pixel_angle().to_degrees();
     if sigma < NOT_SEEN || Rods::share_of(0.0, adaptation) == 0.0 {
         return Ok(None);
     }
-    let stretch = |row: usize| match frame.view {
-        // A latitude-longitude picture is stretched along its rows towards the poles.
-        View::LatLong { rows } => 1.0 / frame.zenith_angle(rows, row).sin().max(1e-6),
-        View::Perspective { .. } | View::Fisheye { .. } => 1.0,
-    };
+    // A latitude-longitude picture is stretched along its rows towards the poles.
+    let stretch = |row: usize| grid.latlong().map_or(1.0, |image| 1.0 / image.table()[row].theta.sin().max(1e-6));
     let matrix = frame.to_xyz().map(|row| row.map(|value| value as f32));
     let mut out = vec![0.0; frame.pixels.len()];
     for channel in 0..3 {

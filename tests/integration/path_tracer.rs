@@ -1,8 +1,6 @@
 //! The path tracer against independent codes in the same air: Monte Carlo on the sphere, discrete ordinates on the plane.
 
-mod common;
-
-use common::{FLAT_RADIUS_KM, Row, own_table, reference_air, reference_air_on, shared_table};
+use crate::common::{FLAT_RADIUS_KM, Row, own_table, reference_air, reference_air_on, shared_table};
 use glam::DVec3;
 use skyprobe::atmosphere::OpticalProfile;
 use skyprobe::light::PathTracer;
@@ -18,8 +16,9 @@ fn view(row: &Row) -> DVec3 {
 }
 
 #[test]
+#[ignore = "needs ../shared/reference"]
 fn agrees_with_the_spherical_monte_carlo_table() {
-    let Some(rows) = shared_table("radiance/spherical_scalar_monte_carlo.csv") else { return };
+    let rows = shared_table("radiance/spherical_scalar_monte_carlo.csv");
     let rows: Vec<&Row> = rows.iter().filter(|row| row["sun_zenith_deg"] <= 96.0).step_by(ROW_STEP).collect();
     let (mut worst, mut squares) = (0.0_f64, 0.0);
     for (seed, row) in rows.iter().enumerate() {

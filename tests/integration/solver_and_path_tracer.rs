@@ -3,10 +3,8 @@
 //! They must agree within 3 standard errors of the path tracer in every direction, without any allowance for the solver. The standard errors are about 0.7 % of
 //! the radiance by day and 1.25 % at dusk, so that a solver error of a few per cent anywhere fails, and one of 1 % in many directions does too.
 
-mod common;
-
-use common::airs::Airs;
-use common::{Row, SPHERICAL_RADIUS_KM};
+use crate::common::airs::Airs;
+use crate::common::{Row, SPHERICAL_RADIUS_KM};
 use glam::DVec3;
 use skyprobe::light::{Estimate, PathTracer};
 use std::sync::LazyLock;

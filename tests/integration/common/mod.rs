@@ -7,7 +7,6 @@ pub mod night;
 
 use skyprobe::atmosphere::{Component, OpticalProfile, Phase};
 use std::collections::HashMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Planet radius of the spherical reference tables [km].
@@ -93,17 +92,23 @@ pub fn own_table(name: &str) -> Vec<Row> {
     read_table(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name))
 }
 
-/// A table beside the checkout, in `../shared/reference` or in the folder that the environment variable `SKYPROBE_REFERENCE`
-/// names. `None`, and a line on the terminal that says so, where it is absent.
-pub fn shared_table(name: &str) -> Option<Vec<Row>> {
+/// A file or folder beside the checkout, in `../shared/reference` or in the folder that the environment variable `SKYPROBE_REFERENCE` names.
+///
+/// Not everybody has it, and the test harness cannot skip at run time: each test that needs one is marked `#[ignore = "needs ../shared/reference"]`, and
+/// `tests/run.sh` asks for those tests where the folder is (`cargo test -- --include-ignored`).
+///
+/// # Panics
+///
+/// Where it is absent.
+pub fn shared_reference(name: &str) -> PathBuf {
     let folder = std::env::var_os("SKYPROBE_REFERENCE")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference"), PathBuf::from);
     let path = folder.join(name);
-    if path.is_file() {
-        return Some(read_table(&path));
-    }
-    // The test harness swallows eprintln of a test that passes, but not this.
-    let line = format!("SKIPPED: no {}\n", path.display());
-    std::io::stderr().write_all(line.as_bytes()).unwrap();
-    None
+    assert!(path.exists(), "there is no {}: SKYPROBE_REFERENCE names the folder of the shared reference", path.display());
+    path
+}
+
+/// A table of the shared reference; see [`shared_reference`].
+pub fn shared_table(name: &str) -> Vec<Row> {
+    read_table(&shared_reference(name))
 }

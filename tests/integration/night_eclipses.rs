@@ -1,11 +1,9 @@
 //! Eclipses of Sun and Moon as a probe shows them.
 
-mod common;
-
-use common::night::{AIR, light, place, sky};
+use crate::common::night::{AIR, light, place, sky};
 use glam::DVec3;
 use skyprobe::ephemeris::SunModel;
-use skyprobe::probe::{Grid, Probe, ProbeSettings, Rows, render};
+use skyprobe::probe::{Probe, ProbeSettings, Rows, render};
 use skyprobe::progress::Progress;
 use skyprobe::sky::{Disc, Layer, Model, Sky, SkyLight};
 use skyprobe::spectrum::ColorSpace;
@@ -16,7 +14,7 @@ fn probe(light: &dyn SkyLight, settings: ProbeSettings) -> Probe {
 
 /// Sum over the pixels of irradiance times direction, by Y [W m-2].
 fn vector_sum(probe: &Probe) -> DVec3 {
-    let grid = Grid::new(&probe.settings);
+    let grid = probe.grid();
     let mut sum = DVec3::ZERO;
     for row in 0..probe.height {
         for column in 0..probe.width {

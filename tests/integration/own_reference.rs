@@ -1,9 +1,7 @@
 //! The solver at quality `high` against the project's own reference tables, which independent codes computed: see `tests/reference`.
 
-mod common;
-
-use common::airs::{Airs, summary};
-use common::{FLAT_RADIUS_KM, Row, SPHERICAL_RADIUS_KM, own_table};
+use crate::common::airs::{Airs, summary};
+use crate::common::{FLAT_RADIUS_KM, Row, SPHERICAL_RADIUS_KM, own_table};
 use std::collections::HashMap;
 
 /// Relative errors of the solver, by row.

@@ -18,8 +18,9 @@
 //! - rows = corner: k is what Mitsuba makes of one pixel by bilinear interpolation: a tent that falls from 1 at the pixel's direction to
 //!   0 at the neighbouring rows and columns; at the first and last row half a tent, which ends at the pole.
 
+use super::choices::{Extent, Projection, Rows};
+use super::geometry::{Footprint, Geometry};
 use super::quadrature::GaussLegendre;
-use super::settings::{Extent, Rows};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -55,15 +56,24 @@ pub struct LatLong {
 }
 
 impl LatLong {
-    /// The geometry of an image `width` pixels wide, for a width that [`ProbeSettings::validate`](super::ProbeSettings::validate) accepts.
+    /// The geometry of an image `width` pixels wide, for a width that [`Projection::check_width`] accepts.
     pub fn new(width: usize, rows: Rows, extent: Extent) -> Self {
-        let (span, height) = match extent {
-            Extent::Full => (PI, width / 2),
-            Extent::Upper => (FRAC_PI_2, width / 4),
+        let span = match extent {
+            Extent::Full => PI,
+            Extent::Upper => FRAC_PI_2,
         };
+        Self::with_span(width, Projection::LatLong.height(width, extent), rows, span)
+    }
+
+    /// The geometry of a picture of any size: the upper half of one if it is at least four times as wide as high.
+    pub fn of_size(width: usize, height: usize, rows: Rows) -> Self {
+        Self::with_span(width, height, rows, if 4 * height <= width { FRAC_PI_2 } else { PI })
+    }
+
+    fn with_span(width: usize, height: usize, rows: Rows, span: f64) -> Self {
         let step = match rows {
             Rows::Centre => span / height as f64,
-            Rows::Corner => span / (height - 1) as f64,
+            Rows::Corner => span / steps(height),
         };
         let mut image = Self { width, rows, span, step, table: Vec::new(), turn: 0.0 };
         let rule = GaussLegendre::new(8);
@@ -86,7 +96,7 @@ impl LatLong {
                 (0.5 * (edge(j) + edge(j + 1)), edge(j), edge(j + 1))
             }
             Rows::Corner => {
-                let theta = |j: usize| self.span * j as f64 / (height - 1) as f64;
+                let theta = |j: usize| self.span * j as f64 / steps(height);
                 (theta(j), theta(j.saturating_sub(1)), theta((j + 1).min(height - 1)))
             }
         };
@@ -145,26 +155,6 @@ impl LatLong {
         &self.table
     }
 
-    /// Direction (east, north, up) of the continuous image coordinates (`x`, `y`).
-    pub fn direction(&self, x: f64, y: f64) -> DVec3 {
-        let theta = match self.rows {
-            Rows::Centre => y * self.step,
-            Rows::Corner => (y - 0.5) * self.step,
-        };
-        direction(theta.clamp(0.0, self.span), self.azimuth(x))
-    }
-
-    /// Continuous image coordinates (x, y) of a `direction`; x lies in [0, W). Directions below an upper half give y > H.
-    pub fn coordinates(&self, direction: DVec3) -> (f64, f64) {
-        let theta = direction.truncate().length().atan2(direction.z);
-        let azimuth = direction.x.atan2(direction.y);
-        let y = match self.rows {
-            Rows::Centre => theta / self.step,
-            Rows::Corner => theta / self.step + 0.5,
-        };
-        (self.x_of_azimuth(azimuth), y)
-    }
-
     /// Azimuth [radians] of the continuous column coordinate `x`.
     pub fn azimuth(&self, x: f64) -> f64 {
         TAU * ((x - self.turn) / self.width as f64 - 0.25)
@@ -175,13 +165,6 @@ impl LatLong {
         let width = self.width as f64;
         let x = ((azimuth / TAU + 0.25).rem_euclid(1.0) * width + self.turn).rem_euclid(width);
         if x >= self.width as f64 { 0.0 } else { x }
-    }
-
-    /// Mean direction of the footprint of pixel (`column`, `row`); shorter than 1.
-    pub fn mean_direction(&self, column: usize, row: usize) -> DVec3 {
-        let row = &self.table[row];
-        let (sine, cosine) = self.azimuth(column as f64 + 0.5).sin_cos();
-        DVec3::new(row.mean_horizontal * sine, row.mean_horizontal * cosine, row.mean_cosine)
     }
 
     /// Weight of `row`'s footprint at zenith angle `theta`.
@@ -229,6 +212,77 @@ impl LatLong {
     /// Column coordinate of the first of the column knots, which are whole columns apart: cell edges, or pixel centres, where tents have their kinks.
     pub(crate) fn column_knot_offset(&self) -> f64 {
         if self.rows == Rows::Centre { 0.0 } else { 0.5 }
+    }
+}
+
+/// Steps from the first to the last of `height` rows; a single row is as good as the pole.
+fn steps(height: usize) -> f64 {
+    (height - 1).max(1) as f64
+}
+
+impl Geometry for LatLong {
+    fn size(&self) -> (usize, usize) {
+        (self.width, self.height())
+    }
+
+    fn reach(&self) -> f64 {
+        self.span
+    }
+
+    fn pixel_angle(&self) -> f64 {
+        TAU / self.width as f64
+    }
+
+    /// Beyond the first and the last row the direction is theirs.
+    fn direction_and_density(&self, x: f64, y: f64) -> Option<(DVec3, f64)> {
+        let theta = match self.rows {
+            Rows::Centre => y * self.step,
+            Rows::Corner => (y - 0.5) * self.step,
+        };
+        let direction = direction(theta.clamp(0.0, self.span), self.azimuth(x));
+        Some((direction, TAU / self.width as f64 * self.step * direction.truncate().length()))
+    }
+
+    /// x lies in [0, W). Directions below an upper half give y > H.
+    fn coordinates(&self, direction: DVec3) -> Option<(f64, f64)> {
+        let theta = direction.truncate().length().atan2(direction.z);
+        let azimuth = direction.x.atan2(direction.y);
+        let y = match self.rows {
+            Rows::Centre => theta / self.step,
+            Rows::Corner => theta / self.step + 0.5,
+        };
+        Some((self.x_of_azimuth(azimuth), y))
+    }
+
+    /// Over the poles and across the left and right border.
+    fn neighbour(&self, column: usize, row: usize, right: isize, down: isize) -> (usize, usize) {
+        let width = self.width as isize;
+        let (mut column, mut row) = (column as isize + right, row as isize + down);
+        let last = self.height() as isize - 1;
+        // In an image with rows on the poles, the row beyond the pole is row 1, not the pole itself once more.
+        let corner = isize::from(self.rows == Rows::Corner);
+        if row < 0 {
+            (column, row) = (column + width / 2, corner);
+        } else if row > last {
+            let full = self.span > 3.0;
+            (column, row) = if full { (column + width / 2, last - corner) } else { (column, last) };
+        }
+        (column.rem_euclid(width) as usize, row as usize)
+    }
+
+    fn footprint(&self, column: usize, row: usize) -> Footprint {
+        let row = &self.table[row];
+        let (sine, cosine) = self.azimuth(column as f64 + 0.5).sin_cos();
+        let mean_direction = DVec3::new(row.mean_horizontal * sine, row.mean_horizontal * cosine, row.mean_cosine);
+        Footprint { solid_angle: row.solid_angle, mean_direction, mean_upward: row.mean_upward }
+    }
+
+    fn zenith_range(&self, _: usize, row: usize) -> (f64, f64) {
+        (self.table[row].from, self.table[row].to)
+    }
+
+    fn latlong(&self) -> Option<&LatLong> {
+        Some(self)
     }
 }
 
@@ -280,13 +334,13 @@ mod tests {
         // checked against: measured mapping of Cycles (rows = centre) and of Mitsuba's envmap (rows = corner)
         let image = LatLong::new(1024, Rows::Centre, Extent::Full);
         for (direction, x) in [(DVec3::Y, 256.0), (DVec3::X, 512.0), (-DVec3::Y, 768.0), (-DVec3::X, 0.0)] {
-            let found = image.coordinates(direction);
+            let found = image.coordinates(direction).unwrap();
             assert!((found.0 - x).abs() < 1e-9 && (found.1 - 256.0).abs() < 1e-9, "{direction}: {found:?}");
         }
         let corner = LatLong::new(1024, Rows::Corner, Extent::Full);
         assert_eq!(corner.table()[0].theta, 0.0);
         assert!((corner.table()[511].theta - PI).abs() < 1e-15);
-        assert!((corner.coordinates(DVec3::X).1 - 256.0).abs() < 1e-9);
+        assert!((corner.coordinates(DVec3::X).unwrap().1 - 256.0).abs() < 1e-9);
     }
 
     #[test]
@@ -305,9 +359,9 @@ mod tests {
         fn directions_come_back(size in 0usize..4, corner: bool, azimuth in -PI..PI, cosine in -1.0f64..1.0) {
             let image = LatLong::new(SIZES[size], if corner { Rows::Corner } else { Rows::Centre }, Extent::Full);
             let there = direction(cosine.acos(), azimuth);
-            let (x, y) = image.coordinates(there);
+            let (x, y) = image.coordinates(there).unwrap();
             prop_assert!((0.0..image.width() as f64).contains(&x));
-            prop_assert!(image.direction(x, y).distance(there) < 1e-9);
+            prop_assert!(image.direction(x, y).unwrap().distance(there) < 1e-9);
         }
 
         #[test]

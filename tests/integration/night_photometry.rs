@@ -1,8 +1,6 @@
 //! Single lights of the night as a probe shows them: moonlight, zodiacal light, extinction of stars; layers that add up to the whole.
 
-mod common;
-
-use common::night::{AIR, NO_AIR, light, lux_of, place, sky, time};
+use crate::common::night::{AIR, NO_AIR, light, lux_of, place, sky, time};
 use glam::DVec3;
 use skyprobe::celestial::photometry::surface_brightness_of_luminance;
 use skyprobe::ephemeris::{SunModel, icrs_to_ecliptic_j2000};

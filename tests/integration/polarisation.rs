@@ -1,9 +1,7 @@
 //! Polarised light against the exact tables of Natraj, Li & Yung 2009 (Rayleigh scattering without depolarisation on a flat planet).
 
-mod common;
-
-use common::airs::summary;
-use common::{FLAT_RADIUS_KM, Row, own_table, reference_air_on, shared_table};
+use crate::common::airs::summary;
+use crate::common::{FLAT_RADIUS_KM, Row, own_table, reference_air_on, shared_table};
 use skyprobe::light::{LightField, Observer, transverse};
 use skyprobe::progress::Progress;
 use skyprobe::quality::Quality;
@@ -59,9 +57,10 @@ fn judge(tau: f64, limit: f64, rows: &[Row], sign: f64) {
 }
 
 #[test]
+#[ignore = "needs ../shared/reference"]
 fn rayleigh_skies_are_those_of_the_exact_tables() {
-    for (tau, limit) in LIMITS {
-        let Some(rows) = shared_table(&format!("natraj2009/downwelling_tau_{tau}.csv")) else { continue };
+    for (tau, limit) in LIMITS.into_iter().filter(|(tau, _)| [0.1, 0.5].contains(tau)) {
+        let rows = shared_table(&format!("natraj2009/downwelling_tau_{tau}.csv"));
         // The tables have the opposite sign of Q and U.
         judge(tau, limit, &rows, -1.0);
     }

@@ -1,8 +1,6 @@
 //! The polarised path tracer against the exact tables of the polarised Rayleigh sky on a flat planet (Natraj, Li & Yung 2009).
 
-mod common;
-
-use common::{FLAT_RADIUS_KM, Row, own_table, shared_table};
+use crate::common::{FLAT_RADIUS_KM, Row, own_table, shared_table};
 use glam::DVec3;
 use skyprobe::atmosphere::{Component, OpticalProfile, Phase};
 use skyprobe::light::{Guiding, PathTracer};
@@ -79,10 +77,11 @@ fn agrees_with_published_rows_of_the_polarised_sky() {
 }
 
 #[test]
+#[ignore = "needs ../shared/reference"]
 fn agrees_with_the_published_tables_of_the_polarised_sky() {
     for (tau, step) in [(0.1, 97), (0.5, 89)] {
         let name = format!("natraj2009/downwelling_tau_{tau}.csv");
-        let Some(rows) = shared_table(&name) else { return };
+        let rows = shared_table(&name);
         compare(&name, &rows.iter().step_by(step).map(|row| (tau, row)).collect::<Vec<_>>());
     }
 }

@@ -1,7 +1,7 @@
 //! The fingerprint under which solved light is kept covers all code that a solve runs through.
 
 #[allow(dead_code)]
-#[path = "../build.rs"]
+#[path = "../../build.rs"]
 mod build;
 
 use std::collections::BTreeSet;

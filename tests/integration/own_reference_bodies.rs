@@ -16,7 +16,7 @@ struct Row<'a> {
 }
 
 fn rows() -> Vec<Row<'static>> {
-    let table = include_str!("reference/ephemeris_bodies.csv");
+    let table = include_str!("../reference/ephemeris_bodies.csv");
     let row = |line: &'static str| {
         let fields: Vec<&str> = line.split(',').collect();
         let n = |i: usize| fields[i].parse::<f64>().unwrap();
