@@ -188,7 +188,7 @@ fn what_hides_half_the_sun_hides_it_in_the_picture_and_takes_half_of_its_light()
     };
     for width in [256, 4096] {
         let settings = ProbeSettings { width, ..Default::default() };
-        let grid = crate::probe::Grid::new(&settings);
+        let grid = settings.grid();
         let row_of = |altitude_deg: f64| ((90.0 - altitude_deg) / 180.0 * width as f64 / 2.0) as usize;
         // Light in the picture, and that more than a tenth of a degree above the edge of the blind.
         let lit = |hidden: bool| {
