@@ -101,7 +101,7 @@ build_wheel() {
 run_tests() {
     # Wine keeps names beyond ASCII only where the system's are UTF-8.
     inside env LANG=C.UTF-8 CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine WINEDEBUG=-all XDG_RUNTIME_DIR=/tmp PROPTEST_RNG_SEED=20051 \
-        cargo test --release --locked --target "$target" -Zbuild-std=std,panic_abort --test cli --test cli_files --test windows
+        cargo test --release --locked --target "$target" -Zbuild-std=std,panic_abort --test integration -- cli:: cli_files:: windows::
 }
 
 [ "$(id -u)" = 0 ] || fail "a folder becomes a root only for root"

@@ -14,6 +14,7 @@
 //! is a default; an unknown key is an error.
 
 mod describe;
+mod ignored;
 pub mod json;
 mod parameters;
 pub mod schema;

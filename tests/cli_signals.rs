@@ -1,4 +1,6 @@
 //! The tool is stopped at any moment: nothing half-written is left, nothing that is done is called cancelled, and what a killed process left is cleaned.
+//!
+//! Alone in its file, because it interrupts at moments that it measured in an undisturbed run: other tests beside it would shift them.
 #![cfg(all(feature = "cli", unix))]
 
 use std::fs;

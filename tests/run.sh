@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
 # Sets up and passes all tests: the one command for a fresh Debian machine with Rust and Python 3.11.
 #
-#     tests/run.sh
+#     tests/run.sh             # all
+#     tests/run.sh --fast      # while you work: no Blender, no Mitsuba, no integration tests, no packages
 #
 # Makes its environments (setup_hosts.sh), builds the wheel and the Blender extension, checks the sources, runs the Rust and the Python
-# tests. The last line says how many tests ran; the exit code is 0 only if nothing failed.
+# tests; further arguments are for pytest. The last line says how many tests ran; the exit code is 0 only if nothing failed. Tests that need
+# the shared reference (`../shared/reference`, or the folder that SKYPROBE_REFERENCE names) count as skipped where it is absent.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 root=$PWD
+fast=
+[ "${1:-}" != --fast ] || { fast=1; shift; }
 logs=$root/target/test-logs
 mkdir -p "$logs"
 # The wheel, the command line tool and the tests share one profile and one target folder, so that each dependency is compiled once.
@@ -18,8 +22,14 @@ export PYO3_PYTHON=$python
 # Property tests draw the same inputs each time here, so that a change is judged by what it does; plain `cargo test` draws new ones.
 export PROPTEST_RNG_SEED=${PROPTEST_RNG_SEED:-20051}
 unset PYTHONPATH PYTHONHOME
-# Neither the user's cache of solved light nor what an earlier run left there has a part in the tests.
-export SKYPROBE_CACHE=off
+# An air that several tests use is solved once. Neither the user's cache of solved light nor what an earlier run left has a part in the tests:
+# the folder is of this run alone. Tests of a solve or of the cache say which cache they want, or none.
+unset SKYPROBE_CACHE
+mkdir -p "$CARGO_TARGET_DIR"
+SKYPROBE_CACHE_DIR=$(mktemp -d "$CARGO_TARGET_DIR/light-of-this-run.XXXXXX") || exit 1
+export SKYPROBE_CACHE_DIR
+trap 'rm -rf "$SKYPROBE_CACHE_DIR"' EXIT
+reference=${SKYPROBE_REFERENCE:-$root/../shared/reference}
 
 failed=()
 durations=()
@@ -58,12 +68,40 @@ format() {
     cargo fmt --check
 }
 
+# With the tests come the tool and what they share: built by itself the tool would compile the library again, as the tests' own dependencies
+# switch features of shared ones on.
+build() {
+    cargo test --release --locked --no-run
+}
+
 rust_tests() {
-    cargo test --release --locked --no-fail-fast
+    local asked=()
+    if [ -d "$reference" ]; then
+        asked=(-- --include-ignored)
+    else
+        echo "skipped: needs ../shared/reference (each \"ignored\" below)"
+    fi
+    cargo test --release --locked --no-fail-fast "${asked[@]}"
 }
 
 python_tests() {
     SKYPROBE_BINARY=$root/target/release/skyprobe "$python" -m pytest --junitxml="$logs/python.xml" "$@"
+}
+
+fast_build() {
+    cargo build --release --locked --bin skyprobe && cargo test --release --locked --lib --no-run
+}
+
+# The module as it is in the sources, without a wheel.
+fast_module() {
+    cargo build --release --locked --lib --features python \
+        && rm -rf target/module && mkdir target/module && cp -r python/skyprobe target/module/ \
+        && cp target/release/libskyprobe.so target/module/skyprobe/_core.abi3.so
+}
+
+fast_python_tests() {
+    PYTHONPATH=$root/target/module python_tests --ignore=tests/blender --ignore=tests/mitsuba --ignore=tests/test_two_renderers.py \
+        --ignore=tests/test_packages.py "$@"
 }
 
 # Prints "ran failed skipped" of each side, from what the tools reported.
@@ -86,17 +124,26 @@ COUNT
 }
 
 rm -f "$logs"/*
-stage "setup" tests/setup_hosts.sh || { echo "tests: 0 ran, setup failed"; exit 1; }
+stage "setup" tests/setup_hosts.sh ${fast:+--python} || { echo "tests: 0 ran, setup failed"; exit 1; }
 # For everything that is compiled, not the wheel alone: other flags would compile each dependency again.
 CARGO_ENCODED_RUSTFLAGS=$("$python" .ci/remap_paths.py) || { echo "tests: 0 ran, cargo does not know the crates"; exit 1; }
 export CARGO_ENCODED_RUSTFLAGS
 stage "format" format
-stage "clippy" clippy
-stage "command line tool" cargo build --release --locked
-stage "Rust tests" rust_tests
-if stage "wheel" build_wheel; then
-    stage "Blender extension" "$python" blender_addon/build.py
-    stage "Python tests" python_tests "$@"
+if [ -n "$fast" ]; then
+    # The crate is compiled by parts, its dependencies as they are.
+    export CARGO_INCREMENTAL=1
+    stage "clippy" clippy
+    stage "build" fast_build
+    stage "Rust tests" cargo test --release --locked --lib
+    stage "module" fast_module && stage "Python tests" fast_python_tests "$@"
+else
+    stage "clippy" clippy
+    stage "build" build
+    stage "Rust tests" rust_tests
+    if stage "wheel" build_wheel; then
+        stage "Blender extension" "$python" blender_addon/build.py
+        stage "Python tests" python_tests "$@"
+    fi
 fi
 
 read -r rust_ran rust_failed rust_skipped < <(count_rust)

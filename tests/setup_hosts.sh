@@ -5,7 +5,7 @@
 #   .venv-bpy45   Blender 4.5 LTS                                        (tests/requirements-bpy45.txt)
 #   .venv-bpy52   Blender 5.2 LTS, with Python 3.13                      (tests/requirements-bpy52.txt)
 #   .venv-bpy53   Blender 5.3, with Python 3.13                          (tests/requirements-bpy53.txt)
-# and the Debian packages that they load. A bpy that is no longer on the index gives way to the newest of its series. What is there already is left alone, so that a second call takes no time.
+# and the Debian packages that they load; with --python .venv alone. A bpy that is no longer on the index gives way to the newest of its series. What is there already is left alone, so that a second call takes no time.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -98,18 +98,19 @@ make_environment() {
     echo "$wanted" > "$folder/made-from"
 }
 
-install_missing "${packages[@]}"
+[ "${1:-}" = --python ] || install_missing "${packages[@]}"
 if ! python311=$(find_python 3.11); then
     # Debian ships the interpreter without the part that makes environments.
     /usr/bin/python3.11 -V > /dev/null 2>&1 || fail "Python 3.11 is missing (the bpy modules of Blender 4 exist for it only)"
     install_missing python3.11-venv
     python311=$(find_python 3.11) || fail "Python 3.11 cannot make virtual environments (module ensurepip)"
 fi
+make_environment "$python311" .venv requirements.txt
+[ "${1:-}" != --python ] || exit 0
 if ! python313=$(find_python 3.13); then
     "$root/tests/setup_python313.sh"
     python313=$root/.python313/bin/python
 fi
-make_environment "$python311" .venv requirements.txt
 for version in 42 45 52 53; do
     # The bpy modules exist for one Python each.
     case $version in

@@ -47,7 +47,7 @@ def probe(sky: sp.Sky) -> sp.Probe:
 @pytest.fixture(scope="module")
 def whole_solve() -> tuple[float, int]:
     """How long a solve at standard quality takes here [s], and how often another thread had its turn meanwhile (200 times a second at most)."""
-    air = sp.Atmosphere(quality="standard")
+    air = sp.Atmosphere(quality="standard", cache=False)
     turns = 0
     done = threading.Event()
 
@@ -388,7 +388,7 @@ def test_progress_is_told_on_the_calling_thread_and_reaches_the_end() -> None:
 def test_false_from_the_callback_cancels_and_the_air_can_be_used_again(whole_solve: tuple[float, int]) -> None:
     begin = time.perf_counter()
     with pytest.raises(sp.Cancelled):
-        sp.Atmosphere(quality="standard").solve(progress=lambda stage, fraction: False)
+        sp.Atmosphere(quality="standard", cache=False).solve(progress=lambda stage, fraction: False)
     assert time.perf_counter() - begin < 0.6 * whole_solve[0]
     air = sp.Atmosphere(quality="draft")
     with pytest.raises(sp.Cancelled):
@@ -419,7 +419,7 @@ def interruptible() -> Iterator[None]:
 
 @pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_interrupts_the_work(whole_solve: tuple[float, int]) -> None:
-    air = sp.Atmosphere(quality="standard")
+    air = sp.Atmosphere(quality="standard", cache=False)
     threading.Timer(0.05, _thread.interrupt_main).start()
     begin = time.perf_counter()
     with pytest.raises(KeyboardInterrupt):

@@ -711,7 +711,7 @@ class Scene:
         """
 
     def sky(self, atmosphere: Atmosphere | None = None) -> Sky:
-        """The sky of the scene.
+        """The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
 
         Parameters
         ----------
@@ -771,7 +771,7 @@ class Sky:
         ISO 8601 text, an aware ``datetime``, or a ``date``, which is its noon. A text without offset is local time in ``zone``; it may be a date alone
         or "now". What has to be assumed (clocks show it never or twice, noon) is a :class:`TimeWarning`, and ``time_notice``.
     atmosphere
-        The air.
+        The air; None for ``Atmosphere()``, the clear one, which is solved once in a process.
     elevation_m
         Height of the observer above the sea, -500 to 60000. [m]
     zone
@@ -793,7 +793,7 @@ class Sky:
         latitude: float,
         longitude: float,
         time: str | datetime.datetime | datetime.date,
-        atmosphere: Atmosphere,
+        atmosphere: Atmosphere | None = None,
         elevation_m: float = 0.0,
         zone: str | None = None,
         sun_model: Literal["iau", "thesis"] = "iau",
@@ -805,7 +805,7 @@ class Sky:
         *,
         altitude_deg: float,
         azimuth_deg: float,
-        atmosphere: Atmosphere,
+        atmosphere: Atmosphere | None = None,
         elevation_m: float = 0.0,
         model: _Model = "scattering",
     ) -> Sky:
@@ -818,7 +818,7 @@ class Sky:
         azimuth_deg
             From north through east. [degrees]
         atmosphere
-            The air.
+            The air; None for ``Atmosphere()``, the clear one, which is solved once in a process.
         elevation_m
             Height of the observer above the sea, -500 to 60000. [m]
         model

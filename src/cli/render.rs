@@ -1,6 +1,6 @@
 //! `skyprobe render`: from a place, a time and an air to files.
 
-use super::options::{ConfigOptions, tell_time};
+use super::options::{ConfigOptions, tell_assumptions};
 use super::scene_options::{Picture, SceneOptions};
 use super::{answer, files, say, terminal};
 use crate::error::{Error, Result};
@@ -119,7 +119,7 @@ pub fn run(options: &Options) -> Result<()> {
 fn render(options: &Options) -> Result<()> {
     let mut config = options.config()?;
     let inputs = options.config.input();
-    tell_time(&config);
+    tell_assumptions(&config);
     if options.config.dump_config {
         files::check(inputs.as_slice(), &[])?;
     }

@@ -1,7 +1,8 @@
 //! What a file says about the light in it, apart from what the probe's own settings say.
 
 /// Facts for the header of a file; what is not known is left out.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Metadata {
     /// Geographic latitude [degrees, north positive].
     pub latitude_deg: Option<f64>,

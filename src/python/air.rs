@@ -2,12 +2,15 @@
 
 use super::arrays;
 use super::errors::InputError;
+use super::pickle::{self, Reduced};
 use super::{fork, work};
 use crate::atmosphere::{self, AirParameters, Ground, OpticalProfile, PhaseTable};
 use crate::quality::Quality;
 use crate::sky;
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
 use std::sync::Arc;
 
 /// The state of the air. It is solved on first use, once, and can be shared by any number of skies and threads.
@@ -218,6 +221,69 @@ impl Atmosphere {
     fn wavelengths_nm<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.inner.profile().wavelengths_nm)
     }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, inner) = (slf.py(), &slf.get().inner);
+        let keys = PyDict::new(py);
+        keys.set_item("quality", name_of(&inner.quality()))?;
+        keys.set_item("polarisation", inner.is_polarised())?;
+        keys.set_item("cache", inner.is_cached())?;
+        let profile = inner.profile();
+        let Some(parameters) = inner.parameters() else {
+            let (rows, columns) = (profile.altitudes_km.len(), profile.wavelengths_nm.len());
+            let components = profile.components.iter().map(|part| Bound::new(py, Component::of(part, rows, columns)));
+            keys.set_item("solar_irradiance", PyArray1::from_slice(py, &profile.solar_irradiance))?;
+            keys.set_item("ground_albedo", PyArray1::from_slice(py, &profile.ground_albedo))?;
+            keys.set_item("planet_radius_km", profile.planet_radius_km)?;
+            keys.set_item("sun_angular_radius_deg", profile.sun_angular_radius_deg)?;
+            let given = (
+                PyArray1::from_slice(py, &profile.altitudes_km),
+                PyArray1::from_slice(py, &profile.wavelengths_nm),
+                components.collect::<PyResult<Vec<_>>>()?,
+            );
+            return pickle::call(&slf.get_type().getattr("from_profile")?, given, &keys);
+        };
+        let given = serde_json::to_value(parameters).unwrap_or_default();
+        for (key, value) in given.as_object().into_iter().flatten() {
+            keys.set_item(key, super::values::object(py, value)?)?;
+        }
+        if let Some(wavelengths_nm) = inner.chosen_wavelengths() {
+            keys.set_item("wavelengths_nm", PyArray1::from_slice(py, wavelengths_nm))?;
+        }
+        pickle::call(slf.get_type().as_any(), (), &keys)
+    }
+
+    fn __repr__(&self) -> String {
+        let quality = name_of(&self.inner.quality());
+        let Some(parameters) = self.inner.parameters() else {
+            let profile = self.inner.profile();
+            let (altitudes, wavelengths) = (profile.altitudes_km.len(), profile.wavelengths_nm.len());
+            let components = profile.components.len();
+            return format!(
+                "<Atmosphere: a profile of {altitudes} altitudes, {wavelengths} wavelengths and {components} components; quality {quality}>"
+            );
+        };
+        let given = serde_json::to_value(parameters).unwrap_or_default();
+        let words = given.as_object().into_iter().flatten().map(|(key, value)| match value.as_str() {
+            Some(word) => format!("{key}='{word}'"),
+            None => format!("{key}={value}"),
+        });
+        let chosen = self.inner.chosen_wavelengths();
+        let chosen = chosen.map_or_else(String::new, |chosen| format!(", wavelengths_nm=<{} wavelengths>", chosen.len()));
+        format!("Atmosphere({}, quality='{quality}'{chosen})", words.collect::<Vec<_>>().join(", "))
+    }
+}
+
+impl Atmosphere {
+    /// The air of skies that are given none.
+    pub fn usual(py: Python<'_>) -> PyResult<Bound<'_, Self>> {
+        static USUAL: PyOnceLock<Py<Atmosphere>> = PyOnceLock::new();
+        let air = USUAL.get_or_try_init(py, || {
+            let air = sky::Atmosphere::new(&AirParameters::default(), Quality::default(), true)?;
+            Py::new(py, Self { inner: Arc::new(air.with_cache(sky::Cache::of_user())) })
+        });
+        air.map(|air| air.bind(py).clone())
+    }
 }
 
 /// The ground by name or as an albedo.
@@ -274,9 +340,40 @@ impl Component {
             phase: phase.map(|phase| phase.inner.clone()),
         })
     }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, Self { name, scattering, absorption, phase }) = (slf.py(), slf.get());
+        let keys = PyDict::new(py);
+        for (key, array) in [("scattering", scattering), ("absorption", absorption)] {
+            keys.set_item(key, PyArray1::from_slice(py, &array.values).reshape(array.shape.clone())?)?;
+        }
+        keys.set_item("phase", phase.clone().map(|inner| Bound::new(py, Phase { inner })).transpose()?)?;
+        keys.set_item("name", name)?;
+        pickle::call(slf.get_type().as_any(), (), &keys)
+    }
+
+    fn __repr__(&self) -> String {
+        let name = self.name.as_ref().map_or_else(|| "None".to_owned(), |name| format!("{name:?}"));
+        let phase = match &self.phase {
+            Some(inner) => Phase { inner: inner.clone() }.__repr__(),
+            None => "None".to_owned(),
+        };
+        format!("<Component: name {name}, arrays of shape {:?}, phase {phase}>", self.scattering.shape)
+    }
 }
 
 impl Component {
+    /// A part of a profile with so many altitudes and wavelengths.
+    fn of(part: &atmosphere::Component, rows: usize, columns: usize) -> Self {
+        let values = |values: &[f64]| arrays::Values { values: values.to_vec(), shape: vec![rows, columns] };
+        Self {
+            name: Some(part.name.clone()),
+            scattering: values(&part.scattering_per_km),
+            absorption: values(&part.absorption_per_km),
+            phase: part.phase.clone(),
+        }
+    }
+
     fn with_shape(&self, index: usize, rows: usize, columns: usize) -> PyResult<atmosphere::Component> {
         let name = self.name.clone().unwrap_or_else(|| format!("components[{index}]"));
         let check = |what: &str, array: &arrays::Values| arrays::expect_matrix(&format!("{name}.{what}"), array, rows, columns);
@@ -310,7 +407,7 @@ impl Phase {
     fn rayleigh(depolarisation: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let depolarisation = match depolarisation {
             None => vec![0.0],
-            Some(given) => arrays::number_or_vector("depolarisation", given)?,
+            Some(given) => arrays::vector("depolarisation", given)?,
         };
         for &ratio in &depolarisation {
             crate::error::check_range("depolarisation", ratio, 0.0, 1.0, "")?;
@@ -348,6 +445,29 @@ impl Phase {
         let values = arrays::floats("values", values)?;
         arrays::expect_rows("values", &values, angles.len())?;
         Ok(Self { inner: atmosphere::Phase::Tabulated(Arc::new(PhaseTable::new(&angles, &values.values)?)) })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, class) = (slf.py(), slf.get_type());
+        let by_name = PyDict::new(py);
+        match &slf.get().inner {
+            atmosphere::Phase::Rayleigh { depolarisation } => {
+                pickle::call(&class.getattr("rayleigh")?, (PyArray1::from_slice(py, depolarisation),), &by_name)
+            }
+            atmosphere::Phase::HenyeyGreenstein { asymmetry } => {
+                pickle::call(&class.getattr("henyey_greenstein")?, (*asymmetry,), &by_name)
+            }
+            atmosphere::Phase::CornetteShanks { asymmetry } => {
+                pickle::call(&class.getattr("cornette_shanks")?, (*asymmetry,), &by_name)
+            }
+            atmosphere::Phase::Tabulated(table) => {
+                let [angles, ln_values] = table.defining_values();
+                let angles_deg: Vec<f64> = angles.iter().map(|angle| angle.to_degrees()).collect();
+                let values: Vec<f64> = ln_values.iter().map(|value| value.exp()).collect();
+                let values = PyArray1::from_vec(py, values).reshape([table.wavelengths(), angles.len()])?;
+                pickle::call(&class.getattr("tabulated")?, (PyArray1::from_vec(py, angles_deg), values), &by_name)
+            }
+        }
     }
 
     fn __repr__(&self) -> String {

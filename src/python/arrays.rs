@@ -22,17 +22,18 @@ pub fn floats(parameter: &str, argument: &Bound<'_, PyAny>) -> PyResult<Values> 
         .map_err(|error| wrong(error.value(py).to_string()))?;
     let array = array.cast_into::<PyArrayDyn<f64>>().map_err(|error| wrong(error.to_string()))?;
     // `ascontiguousarray` makes at least one dimension; a plain number stays recognisable by its original one.
-    let scalar = argument.extract::<f64>().is_ok() && array.len() == 1;
+    // Older numpy takes an array of one element for a number, so its dimensions are asked for.
+    let scalar = array.len() == 1 && py.import("numpy")?.call_method1("ndim", (argument,))?.extract::<usize>()? == 0;
     let shape = if scalar { Vec::new() } else { array.shape().to_vec() };
     Ok(Values { values: array.try_readonly().map_err(|error| wrong(error.to_string()))?.to_vec()?, shape })
 }
 
-/// A vector of any length.
+/// A vector of any length; a number is one of length 1.
 pub fn vector(parameter: &str, argument: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = floats(parameter, argument)?;
     match array.shape.len() {
-        1 => Ok(array.values),
-        _ => Err(wrong_shape(parameter, &array.shape, "one dimension")),
+        0 | 1 => Ok(array.values),
+        _ => Err(wrong_shape(parameter, &array.shape, "one dimension, or a number")),
     }
 }
 
@@ -43,15 +44,6 @@ pub fn vector_or_number(parameter: &str, argument: &Bound<'_, PyAny>, length: us
         [] => Ok(vec![array.values[0]; length]),
         [n] if n == length => Ok(array.values),
         _ => Err(wrong_shape(parameter, &array.shape, &format!("shape ({length},), or a number"))),
-    }
-}
-
-/// A number, or a vector of any length.
-pub fn number_or_vector(parameter: &str, argument: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let array = floats(parameter, argument)?;
-    match array.shape.len() {
-        0 | 1 => Ok(array.values),
-        _ => Err(wrong_shape(parameter, &array.shape, "one dimension, or a number")),
     }
 }
 

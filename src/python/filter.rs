@@ -1,7 +1,9 @@
 //! `PolarisingFilter`.
 
+use super::pickle::{self, Reduced};
 use crate::sky;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 /// A polarising filter between the sky and the picture: what is seen is I + strength (Q cos 2c + U sin 2c), where c is the angle of its
 /// axis from the vertical. The half of the light that any filter takes is made up for by the exposure.
@@ -46,6 +48,14 @@ impl PolarisingFilter {
     #[getter]
     fn held_towards_deg(&self) -> Option<(f64, f64)> {
         self.inner.held_towards_deg.map(Into::into)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (keys, filter) = (PyDict::new(slf.py()), slf.get());
+        keys.set_item("strength", filter.strength())?;
+        keys.set_item("angle_deg", filter.angle_deg())?;
+        keys.set_item("held_towards_deg", filter.held_towards_deg())?;
+        pickle::call(slf.get_type().as_any(), (), &keys)
     }
 
     fn __repr__(&self) -> String {

@@ -11,6 +11,7 @@ mod errors;
 mod filter;
 mod fork;
 mod night;
+mod pickle;
 mod places;
 mod post;
 mod probe;

@@ -1,9 +1,11 @@
 //! `Night`.
 
+use super::pickle::{self, Reduced};
 use crate::celestial::Airglow;
 use crate::error::{Error, check_range};
 use crate::sky::{NightOptions, When};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 /// What of the night is in a sky with place and time, and how bright what varies is.
 ///
@@ -95,6 +97,16 @@ impl Night {
     #[getter]
     fn led_share(&self) -> f64 {
         self.inner.led_share
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, night) = (slf.py(), slf.get());
+        let keys = PyDict::new(py);
+        let given = serde_json::to_value(night.inner).unwrap_or_default();
+        for (key, value) in given.as_object().into_iter().flatten() {
+            keys.set_item(key, super::values::object(py, value)?)?;
+        }
+        pickle::call(slf.get_type().as_any(), (), &keys)
     }
 
     fn __repr__(&self) -> String {

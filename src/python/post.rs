@@ -205,8 +205,8 @@ pub fn point_spread_function<'py>(
     wavelengths_nm: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let state: AdaptationState = state.parse()?;
-    let angles = arrays::number_or_vector("angles_deg", angles_deg)?;
-    let wavelengths = arrays::number_or_vector("wavelengths_nm", wavelengths_nm)?;
+    let angles = arrays::vector("angles_deg", angles_deg)?;
+    let wavelengths = arrays::vector("wavelengths_nm", wavelengths_nm)?;
     for &angle in &angles {
         crate::error::check_range("angles_deg", angle, 0.0, 180.0, "degrees")?;
     }

@@ -2,6 +2,7 @@
 
 use super::arguments::vectors;
 use super::errors::InputError;
+use super::pickle::Reduced;
 use super::scene::Scene;
 use super::work;
 use crate::error::Result;
@@ -9,7 +10,7 @@ use crate::io::{self, FileOptions, Half, Metadata};
 use crate::probe::{self, ProbeSettings};
 use crate::scene;
 use glam::DVec3;
-use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use numpy::{PyArray1, PyArray3, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -194,6 +195,28 @@ impl Probe {
         }
         let shape = [found.len(), 3];
         Ok(PyArray1::from_vec(py, found.into_flattened()).reshape(shape)?.into_any().unbind())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, probe) = (slf.py(), slf.get());
+        let pixels = probe.pixels(py)?;
+        let settings = serde_json::to_string(&probe.settings).unwrap_or_default();
+        let metadata = serde_json::to_string(&probe.metadata).unwrap_or_default();
+        Ok((slf.get_type().getattr("_restore")?, (settings, metadata, pixels).into_pyobject(py)?))
+    }
+
+    /// What a pickle holds, as a probe.
+    #[staticmethod]
+    fn _restore(settings: &str, metadata: &str, pixels: Bound<'_, PyArray3<f32>>) -> PyResult<Self> {
+        let wrong = |error: serde_json::Error| InputError::new_err(format!("pickle = probe: must be whole ({error})"));
+        let settings: ProbeSettings = serde_json::from_str(settings).map_err(wrong)?;
+        settings.validate()?;
+        let metadata: Metadata = serde_json::from_str(metadata).map_err(wrong)?;
+        let shape = [settings.height(), settings.width, 3];
+        if pixels.shape() != shape || !pixels.is_c_contiguous() {
+            return Err(InputError::new_err(format!("pickle = array of shape {:?}: must be {shape:?}", pixels.shape())));
+        }
+        Ok(Self { settings, metadata, pixels: Mutex::new(Pixels::Array(pixels.unbind())) })
     }
 
     fn __repr__(&self) -> String {

@@ -3,7 +3,7 @@
 use crate::ephemeris;
 use crate::sky;
 use crate::time::Time;
-use numpy::PyArray1;
+use numpy::{PyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 /// An instant as an aware `datetime.datetime`.
@@ -86,6 +86,13 @@ impl SunEvents {
     fn astronomical_dusk<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         Self::optional(py, self.inner.astronomical_dusk.as_ref())
     }
+
+    fn __repr__(&self) -> String {
+        let ephemeris::SunEvents { sunrise, solar_noon, noon_altitude_deg, sunset, .. } = &self.inner;
+        let or_never = |time: &Option<Time>| time.as_ref().map_or_else(|| "never".to_owned(), Time::to_string);
+        let (sunrise, sunset) = (or_never(sunrise), or_never(sunset));
+        format!("<SunEvents: sunrise {sunrise}, solar noon {solar_noon} at altitude {noon_altitude_deg:.3} deg, sunset {sunset}>")
+    }
 }
 
 /// Spectral irradiance by the light of the Sun, each of shape (W,). [W m-2 nm-1]
@@ -125,6 +132,10 @@ impl Irradiance {
     #[getter]
     fn diffuse_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.diffuse_horizontal.clone_ref(py)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        format!("<Irradiance at {} wavelengths [W m-2 nm-1]>", self.direct_normal.bind(py).len())
     }
 }
 

@@ -11,6 +11,7 @@ use crate::probe;
 use crate::progress::Progress;
 use crate::scene;
 use crate::sky::Cache;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use serde_json::{Map, Value};
@@ -119,7 +120,7 @@ impl Scene {
         Ok(Atmosphere { inner: Arc::new(air) })
     }
 
-    /// The sky of the scene.
+    /// The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
     ///
     /// Parameters
     /// ----------
@@ -132,6 +133,10 @@ impl Scene {
             Some(air) => air,
             None => Bound::new(py, self.atmosphere(true)?)?,
         };
+        for sentence in self.inner.ignored() {
+            let message = std::ffi::CString::new(format!("without effect: {sentence}"))?;
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)?;
+        }
         let inner = self.inner.sky(air.get().inner.clone())?;
         Sky::of(py, inner, air.unbind(), self.inner.sun_model, self.inner.light.model)
     }

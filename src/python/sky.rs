@@ -7,6 +7,7 @@ use super::bodies::{Body, LunarEclipse, Moon, RiseAndSet, SolarEclipse};
 use super::errors::{InputError, SunlightOnlyWarning, TimeWarning};
 use super::filter::PolarisingFilter;
 use super::night::Night;
+use super::pickle::{self, Reduced};
 use super::probe::{Probe, read_half};
 use super::results::{Illuminance, Irradiance, SunEvents, datetime};
 use super::scene::Scene;
@@ -20,7 +21,7 @@ use crate::sky::{self, Layer, LightOptions, Model};
 use crate::time::Time;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyMapping;
+use pyo3::types::{PyDict, PyMapping};
 use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,7 +38,7 @@ use std::sync::Arc;
 ///     ISO 8601 text, an aware ``datetime``, or a ``date``, which is its noon. A text without offset is local time in ``zone``; it may be a date alone
 ///     or "now". What has to be assumed (clocks show it never or twice, noon) is a :class:`TimeWarning`, and ``time_notice``.
 /// atmosphere
-///     The air.
+///     The air; None for ``Atmosphere()``, the clear one, which is solved once in a process.
 /// elevation_m
 ///     Height of the observer above the sea, -500 to 60000. [m]
 /// zone
@@ -62,7 +63,7 @@ pub struct Sky {
 #[pymethods]
 impl Sky {
     #[new]
-    #[pyo3(signature = (*, latitude, longitude, time, atmosphere, elevation_m = 0.0, zone = None, sun_model = "iau",
+    #[pyo3(signature = (*, latitude, longitude, time, atmosphere = None, elevation_m = 0.0, zone = None, sun_model = "iau",
         model = "scattering", night = None))]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
@@ -70,7 +71,7 @@ impl Sky {
         latitude: f64,
         longitude: f64,
         time: &Bound<'_, PyAny>,
-        atmosphere: Bound<'_, Atmosphere>,
+        atmosphere: Option<Bound<'_, Atmosphere>>,
         elevation_m: f64,
         zone: Option<&str>,
         sun_model: &str,
@@ -78,6 +79,7 @@ impl Sky {
         night: Option<PyRef<'_, Night>>,
     ) -> PyResult<Self> {
         fork::check()?;
+        let atmosphere = atmosphere.map_or_else(|| Atmosphere::usual(py), Ok)?;
         let place = Place::new(latitude, longitude, elevation_m)?;
         let time = time_at(&place, &time_text(time)?, zone)?;
         let (sun_model, model) = (sun_model.parse()?, model.parse()?);
@@ -95,22 +97,24 @@ impl Sky {
     /// azimuth_deg
     ///     From north through east. [degrees]
     /// atmosphere
-    ///     The air.
+    ///     The air; None for ``Atmosphere()``, the clear one, which is solved once in a process.
     /// elevation_m
     ///     Height of the observer above the sea, -500 to 60000. [m]
     /// model
     ///     As for ``Sky``.
     #[staticmethod]
-    #[pyo3(signature = (*, altitude_deg, azimuth_deg, atmosphere, elevation_m = 0.0, model = "scattering"))]
+    #[pyo3(signature = (*, altitude_deg, azimuth_deg, atmosphere = None, elevation_m = 0.0, model = "scattering"))]
     fn with_sun(
+        py: Python<'_>,
         altitude_deg: f64,
         azimuth_deg: f64,
-        atmosphere: Bound<'_, Atmosphere>,
+        atmosphere: Option<Bound<'_, Atmosphere>>,
         elevation_m: f64,
         model: &str,
     ) -> PyResult<Self> {
         fork::check()?;
         let model = model.parse()?;
+        let atmosphere = atmosphere.map_or_else(|| Atmosphere::usual(py), Ok)?;
         let inner = sky::Sky::with_sun(altitude_deg, azimuth_deg, elevation_m, atmosphere.get().inner.clone())?;
         Ok(Self { inner: Arc::new(inner), air: atmosphere.unbind(), sun_model: SunModel::default(), model })
     }
@@ -574,6 +578,26 @@ impl Sky {
             SampleMap::new(&dome, width, turn_deg, progress)
         })?;
         PyArray1::from_vec(py, map.pixels).reshape([map.height, map.width, 3])
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, class, sky) = (slf.py(), slf.get_type(), slf.get());
+        let keys = PyDict::new(py);
+        keys.set_item("atmosphere", &sky.air)?;
+        keys.set_item("elevation_m", sky.inner.elevation_m())?;
+        keys.set_item("model", sky.model.name())?;
+        let (Some(place), Some(time)) = (sky.inner.place(), sky.inner.time()) else {
+            keys.set_item("altitude_deg", sky.inner.sun().altitude_deg)?;
+            keys.set_item("azimuth_deg", sky.inner.sun().azimuth_deg)?;
+            return pickle::call(&class.getattr("with_sun")?, (), &keys);
+        };
+        keys.set_item("latitude", place.latitude_deg)?;
+        keys.set_item("longitude", place.longitude_deg)?;
+        keys.set_item("time", time.to_string())?;
+        keys.set_item("zone", time.zone_name())?;
+        keys.set_item("sun_model", sky.sun_model.name())?;
+        keys.set_item("night", Night { inner: *sky.inner.night() })?;
+        pickle::call(class.as_any(), (), &keys)
     }
 
     fn __repr__(&self) -> String {

@@ -130,6 +130,11 @@ impl Adaptation {
         Ok(Self { inner: Mutex::new(tone::Adaptation::new(light_s, dark_s)?) })
     }
 
+    fn __repr__(&self) -> String {
+        let [light_s, dark_s] = self.with(|eye| eye.time_constants_s());
+        format!("<Adaptation: light_s {light_s}, dark_s {dark_s}>")
+    }
+
     /// Return a real eye's: 0.4 s towards light, 110 s towards darkness.
     #[staticmethod]
     fn eye() -> Self {

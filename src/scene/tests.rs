@@ -1,13 +1,7 @@
 use super::*;
-use crate::atmosphere::{AerosolType, Ground, Preset, Surface};
-use crate::io::Half;
-use crate::post::tone::OperatorName;
-use crate::probe::{Extent, GroundView, Projection, Rows};
-use crate::sky::LayerScales;
-use crate::spectrum::{ColorSpace, Gamut};
-use crate::units::Scale;
 use proptest::prelude::*;
 use proptest::sample::select;
+use serde_json::json as object;
 
 fn message(text: &str) -> String {
     Scene::from_json(text).unwrap_err().to_string()
@@ -41,7 +35,7 @@ fn wrong_input_names_the_key_with_its_table() {
         (r#"{"atmosphere": []}"#, "atmosphere = []: must be a table"),
         (r#"{"probe": {"width": 0}}"#, "probe.width = 0: must be a whole number from 64 to 16384 pixels"),
         (r#"{"probe": {"width": 64.5}}"#, "probe.width = 64.5: must be a whole number"),
-        (r#"{"probe": {"scale": "nits"}}"#, r#"probe.scale = "nits": must be one of blender"#),
+        (r#"{"probe": {"scale": "nits"}}"#, r#"probe.scale = "nits": must be blender, mitsuba or luminance"#),
         (r#"{"sun": {"altitude_deg": 95, "azimuth_deg": 0}}"#, "sun.altitude_deg = 95: must be"),
         (r#"{"sun": {"altitude_deg": 5}}"#, "sun"),
         (r#"{"sun": {"altitude_deg": 5, "azimuth_deg": 0}, "latitude": 3}"#, "sun = altitude 5, azimuth 0: must be left out"),
@@ -100,100 +94,116 @@ fn not_a_number_is_refused_where_it_cannot_come_from_json() {
     }
 }
 
-fn optional<T: Clone + std::fmt::Debug + 'static>(inner: impl Strategy<Value = T> + 'static) -> BoxedStrategy<Option<T>> {
-    proptest::option::of(inner).boxed()
-}
-
-fn any_air() -> impl Strategy<Value = SceneAtmosphere> {
-    let grounds = prop_oneof![
-        select(vec![Surface::Grass, Surface::Snow, Surface::City]).prop_map(Ground::Surface),
-        (0.0..=1.0).prop_map(Ground::Albedo)
-    ];
-    let presets = select(vec![Preset::Clear, Preset::Hazy, Preset::Antarctic]);
-    let aerosols = optional(select(vec![AerosolType::Urban, AerosolType::Desert]));
-    let qualities = select(vec![Quality::Draft, Quality::Standard, Quality::High, Quality::Reference]);
-    let solve = (qualities, any::<bool>(), optional(select(vec![vec![350.0, 550.5], vec![1000.0]])));
-    (presets, aerosols, optional(1.0..=64.0), optional(0.0..=1000.0), optional(grounds), solve).prop_map(
-        |(preset, aerosol, turbidity, ozone_du, ground, (quality, polarisation, wavelengths_nm))| SceneAtmosphere {
-            air: AirParameters { preset, aerosol, turbidity, ozone_du, ground, ..AirParameters::default() },
-            quality,
-            polarisation,
-            wavelengths_nm,
+/// A value that the row of a parameter allows.
+fn any_value(row: &'static Parameter) -> BoxedStrategy<Value> {
+    let number = |low: f64, high: f64| prop_oneof![Just(low), Just(high), low..=high].prop_map(Value::from);
+    let word = |words: &'static [&'static str]| select(words.to_vec()).prop_map(Value::from);
+    match row.kind {
+        Kind::Number { low, high } => number(low, high).boxed(),
+        // Pictures divide into whole rows.
+        Kind::Whole { low, high } if row.name == "width" => {
+            (low / 4..=high / 4).prop_map(|quarter| Value::from(4 * quarter)).boxed()
+        }
+        Kind::Whole { low, high } => (low..=high).prop_map(Value::from).boxed(),
+        Kind::Flag => any::<bool>().prop_map(Value::from).boxed(),
+        Kind::Words(words) => word(words).boxed(),
+        Kind::WordsOrNumber { words, low, high } => prop_oneof![word(words), number(low, high)].boxed(),
+        Kind::Ascending { low, high } => proptest::collection::btree_set(low as u32..=high as u32, 1..6)
+            .prop_map(|set| Value::from_iter(set.into_iter().map(f64::from)))
+            .boxed(),
+        Kind::Direction => {
+            (-90.0..=90.0_f64, -360.0..=360.0_f64).prop_map(|(altitude, azimuth)| Value::from(vec![altitude, azimuth])).boxed()
+        }
+        Kind::Factors { words, low, high } => proptest::collection::btree_map(select(words.to_vec()), low..=high, 1..4)
+            .prop_map(|factors| {
+                Value::from_iter(factors.into_iter().map(|(word, factor)| (word.to_owned(), Value::from(factor))))
+            })
+            .boxed(),
+        Kind::Files => proptest::collection::vec("[a-z \u{e5}]{1,8}\\.exr", 1..3).prop_map(Value::from).boxed(),
+        Kind::Text => match row.name {
+            "time" => select(vec!["2005-06-21T13:00:00+02:00", "1987-01-02T03:04", "2030-12-31"]).prop_map(Value::from).boxed(),
+            "zone" => select(vec!["Europe/Stockholm", "UTC", "Asia/Kathmandu"]).prop_map(Value::from).boxed(),
+            "place" => select(vec!["Lund, Sweden", "-33.87, 151.21"]).prop_map(Value::from).boxed(),
+            other => panic!("what may the text {other} be?"),
         },
-    )
+    }
 }
 
-fn any_probe() -> impl Strategy<Value = ProbeSettings> {
-    let image = (
-        (16_usize..=4096).prop_map(|quarter| quarter * 4),
-        select(vec![Projection::LatLong, Projection::Fisheye]),
-        select(vec![Rows::Centre, Rows::Corner]),
-        select(vec![Extent::Full, Extent::Upper]),
-        select(vec![GroundView::On, GroundView::Off, GroundView::Mirrored]),
-    );
-    let colour = (
-        prop_oneof![Just(0.0), -360.0..=360.0_f64],
-        any::<[bool; 2]>(),
-        select(vec![Scale::Blender, Scale::Mitsuba, Scale::Luminance]),
-        select(vec![ColorSpace::LinRec709, ColorSpace::AcesCg, ColorSpace::LinRec2020, ColorSpace::Xyz]),
-        select(vec![Gamut::Desaturate, Gamut::Clip, Gamut::Keep]),
-    );
-    (image, colour).prop_map(
-        |((width, projection, rows, extent, ground), (turn_deg, [sun_disc, moon_disc], scale, color_space, gamut))| {
-            ProbeSettings { width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut }
-        },
-    )
-}
-
-fn any_light() -> impl Strategy<Value = LightOptions> {
-    let filter = (0.0..=1.0_f64, -180.0..=180.0_f64, optional([-90.0..=90.0_f64, -360.0..=360.0_f64]));
-    let filter =
-        filter.prop_map(|(strength, angle_deg, held_towards_deg)| PolarisingFilter { strength, angle_deg, held_towards_deg });
-    (optional(filter), optional(1e-4..=0.5)).prop_map(|(polarising_filter, tolerance)| LightOptions {
-        model: Model::Scattering,
-        polarising_filter,
-        tolerance,
-        layers: LayerScales::default(),
+/// JSON in which each parameter of the table is given as often as not; what excludes each other is not given twice.
+fn any_document() -> impl Strategy<Value = Value> {
+    let rows: Vec<BoxedStrategy<Option<Value>>> = parameters().map(|row| proptest::option::of(any_value(row)).boxed()).collect();
+    (rows, any::<[bool; 2]>()).prop_map(|(values, [is_put, is_named])| {
+        let mut document = serde_json::Map::new();
+        let mut groups = Vec::new();
+        for (row, value) in parameters().zip(values) {
+            let of_place = ["latitude", "longitude", "time", "zone", "place"].contains(&row.name);
+            let is_left_out = (is_put && of_place)
+                || (!is_put && row.table == "sun")
+                || (is_named == ["latitude", "longitude"].contains(&row.name)
+                    && (of_place && row.name != "time" && row.name != "zone"));
+            let needed = is_put && row.table == "sun";
+            let Some(value) = value.or(needed.then_some(Value::from(1.5))) else { continue };
+            if is_left_out || (!row.group.is_empty() && groups.contains(&row.group)) {
+                continue;
+            }
+            if !row.group.is_empty() {
+                groups.push(row.group);
+            }
+            let table = match row.table {
+                "" => &mut document,
+                name => document.entry(name).or_insert_with(|| Value::Object(serde_json::Map::new())).as_object_mut().unwrap(),
+            };
+            table.insert(row.name.to_owned(), value);
+        }
+        Value::Object(document)
     })
 }
 
-fn any_config() -> impl Strategy<Value = Scene> {
-    let place = (-90.0..=90.0_f64, -180.0..=180.0_f64, select(vec!["2005-06-21T13:00:00+02:00", "1987-01-02T03:04"]));
-    let sun = (-90.0..=90.0_f64, -360.0..=360.0_f64);
-    let sky = prop_oneof![place.prop_map(Ok), sun.prop_map(Err)];
-    let zone = optional(select(vec!["Europe/Stockholm".to_string(), "UTC".to_string()]));
-    let files =
-        (select(vec![Half::Off, Half::Refuse, Half::Scale]), -20.0..=20.0_f64, select(OperatorName::ALL.to_vec()), any::<bool>());
-    let output = proptest::collection::vec("[a-z ]{1,8}\\.exr".prop_map(PathBuf::from), 0..3);
-    (
-        sky,
-        zone,
-        -500.0..=60_000.0_f64,
-        select(vec![SunModel::Iau, SunModel::Thesis]),
-        any_air(),
-        any_probe(),
-        any_light(),
-        files,
-        output,
-    )
-        .prop_map(
-            |(sky, zone, elevation_m, sun_model, atmosphere, probe, light, (half, exposure_stops, operator, layers), output)| {
-                let file = FileOptions { half, exposure_stops, operator, layers };
-                let common = Scene { elevation_m, zone, sun_model, light, atmosphere, probe, file, output, ..Scene::default() };
-                match sky {
-                    Ok((latitude, longitude, time)) => {
-                        Scene { latitude: Some(latitude), longitude: Some(longitude), time: Some(time.to_string()), ..common }
-                    }
-                    Err((altitude_deg, azimuth_deg)) => Scene { sun: Some(SunPosition { altitude_deg, azimuth_deg }), ..common },
-                }
-            },
-        )
+/// Whether two parameters do not fit together, which their rows cannot say.
+fn is_of_several(error: &Error) -> bool {
+    let text = error.to_string();
+    ["left out", "henyey_greenstein or cornette_shanks", "km or more in haze", "of pure air", "one of continental_clean"]
+        .iter()
+        .any(|part| text.contains(part))
 }
 
 proptest! {
     #[test]
-    fn what_is_written_reads_back_to_the_last_digit(config in any_config()) {
-        prop_assert_eq!(Scene::from_json(&config.to_json()).unwrap(), config);
+    fn what_the_table_allows_is_read_and_comes_back_to_the_last_digit(document in any_document()) {
+        match Scene::from_value(&document) {
+            Ok(scene) => {
+                let again = Scene::from_json(&scene.to_json()).unwrap();
+                prop_assert_eq!(again.to_value(), scene.to_value());
+                // What was given stands in what is written, but for a place, which is written as the numbers that it stands for.
+                let written = scene.to_value();
+                for row in parameters().filter(|row| !["place", "elevation_m"].contains(&row.name)) {
+                    let at = format!("/{}", row.path().replace('.', "/"));
+                    if let Some(given) = document.pointer(&at).filter(|given| *given != &Value::from(0.0)) {
+                        prop_assert_eq!(written.pointer(&at), Some(given), "{}", row.path());
+                    }
+                }
+            }
+            Err(error) => prop_assert!(is_of_several(&error), "{}: {}", document, error),
+        }
+    }
+
+    #[test]
+    fn a_value_out_of_range_is_refused_by_name(index in 0..200_usize, above in any::<bool>(), by in 1e-3..1e6_f64) {
+        let rows: Vec<&Parameter> = parameters().filter(|row| matches!(row.kind, Kind::Number { .. } | Kind::Whole { .. })).collect();
+        let row = rows[index % rows.len()];
+        let value = match row.kind {
+            Kind::Number { low, high } => Value::from(if above { high + by } else { low - by }),
+            Kind::Whole { high, .. } => Value::from(if above { u64::from(high) + 1 + by as u64 } else { 0 }),
+            _ => unreachable!(),
+        };
+        let other = if row.name == "altitude_deg" { "azimuth_deg" } else { "altitude_deg" };
+        let document = match row.table {
+            "" => object!({row.name: value}),
+            "sun" => object!({"sun": {row.name: value, other: 0.0}}),
+            table => object!({table: {row.name: value}}),
+        };
+        let message = Scene::from_value(&document).unwrap_err().to_string();
+        prop_assert!(message.starts_with(&format!("{} = ", row.path())), "{}", message);
     }
 
     #[test]

@@ -87,6 +87,11 @@ impl Atmosphere {
         Self { cache: cache.filter(|_| self.quality != Quality::Draft), ..self }
     }
 
+    /// Whether solved light is looked for in a cache.
+    pub const fn is_cached(&self) -> bool {
+        self.cache.is_some()
+    }
+
     /// Solves the multiple scattering, unless that is done. A thread that waits for another's solve can be cancelled as well.
     ///
     /// # Errors

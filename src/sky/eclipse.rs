@@ -8,12 +8,8 @@
 //! ```
 //! horizontal irradiances without and with the eclipse, the Sun's with the corona; the air before it has the share of the sky as far above the horizontal.
 
-use super::SkyLight;
 use super::disc::{Disc, Surface, SurfaceMap};
-use super::dome::SkyDome;
 use crate::celestial::{Corona, EclipsedSunlight, eclipsed_sunlight::remaining_sky_light};
-use crate::ephemeris::{Bodies, SolarEclipse};
-use crate::error::Result;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -26,15 +22,6 @@ const COLOURS: [[(f64, f64); 2]; 3] = [[(600.0, 0.8), (450.0, 0.2)], [(550.0, 1.
 
 /// Uncovered part of the Sun's light below which the corona is drawn; with more, the sky outshines it.
 const CORONA_BELOW: f64 = 1e-3;
-
-/// The light of the Sun behind the Moon, if the Moon covers any of it.
-pub(super) fn eclipsed_sunlight(bodies: &Bodies) -> Result<Option<EclipsedSunlight>> {
-    let light = |eclipse: SolarEclipse| {
-        let (sun, moon) = (bodies.sun.direction(), bodies.moon.body.direction());
-        EclipsedSunlight::new(sun, eclipse.sun_radius_deg, moon, eclipse.moon_radius_deg)
-    };
-    bodies.solar_eclipse().map(light).transpose()
-}
 
 /// The corona, where it is not outshone by what is left of the Sun.
 pub(super) fn corona(eclipse: EclipsedSunlight) -> Option<Corona> {
@@ -91,28 +78,6 @@ impl Gain {
         let fraction = position - node as f64;
         let clear = self.transmittance[node] * (1.0 - fraction) + self.transmittance[node + 1] * fraction;
         clear * self.ground + (1.0 - clear) * sky
-    }
-}
-
-/// A dome under the Moon's shadow.
-pub(super) struct EclipsedDome {
-    pub dome: SkyDome,
-    pub gain: Gain,
-}
-
-impl SkyLight for EclipsedDome {
-    fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
-        self.dome.radiance_circle(altitude, azimuths, out);
-        let gain = self.gain.at(altitude) as f32;
-        out.as_flattened_mut().iter_mut().for_each(|value| *value *= gain);
-    }
-
-    fn horizon_altitude(&self) -> f64 {
-        self.dome.horizon_altitude()
-    }
-
-    fn discs(&self) -> Vec<Disc> {
-        self.dome.discs()
     }
 }
 

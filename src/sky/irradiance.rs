@@ -1,6 +1,6 @@
 //! What a surface receives, computed from the light field directly and not by way of a picture.
 
-use super::SkyLight;
+use super::sky_light::SkyLight;
 use crate::error::{Result, check_finite};
 use crate::light::{LightField, Observer};
 use crate::numerics::gauss;

@@ -1,19 +1,26 @@
 //! What is seen from a place at a time: the light of the sky, the Sun's disc, the ground.
 
+mod airless;
 mod atmosphere;
 pub mod cache;
+mod composition;
 mod disc;
 mod dome;
 mod eclipse;
-mod filter;
 mod irradiance;
 mod kept_refraction;
 mod layers;
 mod light_key;
-mod model;
 mod night;
+mod options;
 mod place_and_time;
 pub mod preetham;
+mod scattered;
+mod sky_light;
+mod spectra;
+mod sunlight;
+#[cfg(test)]
+mod tests;
 mod thesis;
 mod turn;
 
@@ -22,39 +29,10 @@ pub(crate) use atmosphere::check_chosen as check_chosen_wavelengths;
 pub use cache::Cache;
 pub use disc::{Disc, Point, Surface, SurfaceMap};
 pub use dome::SkyDome;
-pub use filter::PolarisingFilter;
 pub use irradiance::{Illuminance, Irradiance};
-pub use layers::{Layer, LayerScales, Layers, OneLayer, Part};
-pub use model::{LightOptions, Model};
-pub use night::{NightOptions, When};
+pub use layers::{Distance, Layers, OneLayer, Part, Transmittance};
+pub use options::{Layer, LayerScales, LightOptions, Model, NightOptions, PolarisingFilter, When};
 pub use place_and_time::Sky;
 pub use preetham::Preetham;
+pub use sky_light::SkyLight;
 pub use thesis::ThesisSky;
-
-/// The light around an observer as a probe needs it: a smooth part that can be asked for in any direction, and discs
-/// and points so small and bright that they must be drawn with their exact energy.
-///
-/// XYZ values are integrals of spectral radiance times the CIE 1931 colour matching functions over wavelength,
-/// so that Y is luminance / 683 lm W-1 [W m-2 sr-1].
-pub trait SkyLight: Sync {
-    /// Writes the smooth radiance (discs excluded) along a circle of equal altitude: XYZ [W m-2 sr-1] for
-    /// each of `azimuths` [radians, from north through east] at `altitude` [radians above the horizontal] into `out`, which has the same length.
-    /// Above the horizon it is the sky, below it the ground seen through the air.
-    fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]);
-
-    /// Altitude of the horizon [radians], 0 or negative: where the smooth radiance jumps from sky to ground.
-    fn horizon_altitude(&self) -> f64;
-
-    /// The discs above the horizon.
-    fn discs(&self) -> Vec<Disc>;
-
-    /// The points of light above the horizon.
-    fn points(&self) -> Vec<Point> {
-        Vec::new()
-    }
-
-    /// The layers whose sum this light is, with their names, in the order of these; empty if it has none.
-    fn layers(&self) -> Vec<(&'static str, Box<dyn SkyLight + '_>)> {
-        Vec::new()
-    }
-}

@@ -1,22 +1,24 @@
-//! The sky over a place at a time: what stands in it and what of sunlight reaches it. Its spectra and illuminance are asked for in `spectral`, its light is made ready for a picture in `pictured`.
+//! The sky over a place at a time: what it is made from, what stands in it and what was asked for beside. What arrives of its light as spectra is in `spectra`, of what pictures are composed in
+//! `composition`; both, and all that they use, ask this file and are not known to it.
 
+use super::airless::{eclipsed_sunlight, moon};
 use super::atmosphere::Atmosphere;
-use super::eclipse::{self, eclipsed_sunlight};
 use super::kept_refraction::refraction;
-use super::night::{NightOptions, When, moon};
+use super::options::{NightOptions, When};
 use crate::celestial::{EclipsedSunlight, MoonDisc};
 use crate::ephemeris::{Bodies, Body, MoonModel, Place, Refraction, SolarEclipse, SunModel, bodies, sun_at};
-use crate::error::{Result, check_finite, check_range};
+use crate::error::{Result, check_range};
 use crate::light::{LightField, Observer};
 use crate::progress::Progress;
-use crate::spectrum::{ColorSpace, Gamut};
 use crate::time::Time;
-use crate::units::Scale;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::{Arc, OnceLock};
 
-mod pictured;
-mod spectral;
+/// Altitude of the Sun below which `When::Auto` shows the night, as it does while the Sun is totally eclipsed [degrees].
+const SUNSET_DEG: f64 = 0.0;
+
+/// Altitude of the Sun at the end of astronomical twilight [degrees].
+const NIGHT_DEG: f64 = -18.0;
 
 /// The sky over an observer with the Sun at one position. Cheap to make: the light is solved by its [`Atmosphere`], once.
 ///
@@ -92,9 +94,34 @@ impl Sky {
         Ok(Self { night, ..self })
     }
 
+    /// The same sky with the Sun at any distance, possible or not [au].
+    #[cfg(test)]
+    pub(super) fn with_sun_distance_au(mut self, distance_au: f64) -> Self {
+        self.sun.distance_au = distance_au;
+        self
+    }
+
     /// What of the night is shown.
     pub fn night(&self) -> &NightOptions {
         &self.night
+    }
+
+    /// Whether moonlight, stars and diffuse light were asked for in this sky.
+    pub(super) fn is_night(&self) -> bool {
+        match self.night.when {
+            When::Auto => self.sun().altitude_deg < SUNSET_DEG || self.solar_eclipse().is_some_and(|eclipse| eclipse.is_total()),
+            When::Always => true,
+            When::Never => false,
+        }
+    }
+
+    /// Whether there is light in this sky that its spectra ([`Self::spectral_radiance`], [`Self::stokes`], [`Self::irradiance`]) lack, because they are of sunlight alone: if moonlight, stars
+    /// and diffuse light are in its pictures by [`Self::night`], and, in a sky without place and time, with the Sun so low that they would outshine it, below -18 degrees.
+    pub fn has_more_than_sunlight(&self) -> bool {
+        match self.bodies_of_place() {
+            Some(_) => self.is_night(),
+            None => self.night().when != When::Never && self.sun().altitude_deg < NIGHT_DEG,
+        }
     }
 
     /// The place, if the sky has one.
@@ -142,41 +169,6 @@ impl Sky {
         &self.atmosphere
     }
 
-    /// Irradiance by the Sun's disc (at a total eclipse by its corona) through the air on a surface that faces it, as RGB in `color_space`, in the units of a probe's pixels times
-    /// steradians: a lamp of this strength lights a scene as the disc in the probe does. A low Sun is redder than Rec. 709 can show; `gamut` says what happens to such a colour, as it
-    /// does in a probe. The lamp belongs where the disc is seen, at the apparent altitude.
-    ///
-    /// # Errors
-    /// As [`Self::illuminance`].
-    pub fn sun_irradiance_rgb(
-        &self,
-        scale: Scale,
-        color_space: ColorSpace,
-        gamut: Gamut,
-        progress: &Progress,
-    ) -> Result<[f64; 3]> {
-        let xyz = sum_of_products(&self.direct_transmittance(self.field(progress)?), &self.xyz_weights()?);
-        lamp(xyz, scale, color_space, gamut)
-    }
-
-    /// Irradiance by the Moon's disc through the air on a surface that faces it, as [`Self::sun_irradiance_rgb`]; nothing if the night is never shown, the Moon is below the horizon
-    /// or the sky has no place and time.
-    ///
-    /// # Errors
-    /// As [`Self::illuminance`].
-    pub fn moon_irradiance_rgb(
-        &self,
-        scale: Scale,
-        color_space: ColorSpace,
-        gamut: Gamut,
-        progress: &Progress,
-    ) -> Result<[f64; 3]> {
-        let field = self.field(progress)?;
-        let seen = self.bodies.as_ref().filter(|_| self.night.when != When::Never);
-        let disc = seen.map(|bodies| self.moon_disc(field, bodies)).transpose()?.flatten();
-        disc.map_or(Ok([0.0; 3]), |disc| lamp(disc.irradiance, scale, color_space, gamut))
-    }
-
     /// The Moon outside the air.
     pub(super) fn moon(&self, bodies: &Bodies) -> Result<&MoonDisc> {
         if let Some(moon) = self.moon.get() {
@@ -186,19 +178,25 @@ impl Sky {
         Ok(self.moon.get_or_init(|| moon))
     }
 
-    fn field(&self, progress: &Progress) -> Result<&LightField> {
+    /// The solved light of the air.
+    ///
+    /// # Errors
+    /// As [`Atmosphere::solve`].
+    pub(super) fn field(&self, progress: &Progress) -> Result<&LightField> {
         self.atmosphere.field(progress)
     }
 
-    fn observer(&self) -> Observer {
+    /// Where the observer is and where the Sun stands.
+    pub(super) fn observer(&self) -> Observer {
         self.observer_under(&self.sun)
     }
 
-    fn observer_under(&self, body: &Body) -> Observer {
+    /// The same with `body` in place of the Sun.
+    pub(super) fn observer_under(&self, body: &Body) -> Observer {
         Observer { altitude_km: self.altitude_km(), sun_zenith: (90.0 - body.altitude_deg).to_radians() }
     }
 
-    /// Depressions below sea level lie on the ground of the model.
+    /// Height above sea level; depressions below it lie on the ground of the model [km].
     pub(super) fn altitude_km(&self) -> f64 {
         (self.elevation_m / 1000.0).max(0.0)
     }
@@ -218,96 +216,4 @@ impl Sky {
         let radius = self.atmosphere.profile().planet_radius_km;
         -(radius / (radius + self.altitude_km())).acos()
     }
-
-    /// Square of 1 au over the Sun's distance.
-    fn nearness(&self) -> f64 {
-        self.sun.distance_au.powi(-2)
-    }
-
-    fn xyz_weights(&self) -> Result<Vec<[f64; 3]>> {
-        let nearness = self.nearness();
-        Ok(self.atmosphere.xyz_weights()?.into_iter().map(|xyz| xyz.map(|w| w * nearness)).collect())
-    }
-
-    /// The same for what lights the sky: less during an eclipse.
-    fn sky_weights(&self) -> Result<Vec<[f64; 3]>> {
-        let share = |(xyz, uncovered): ([f64; 3], f64)| xyz.map(|w| w * eclipse::sky_share(uncovered));
-        Ok(self.xyz_weights()?.into_iter().zip(self.uncovered()).map(share).collect())
-    }
-
-    /// Part of the Sun's light that the Moon does not cover, at the solved wavelengths.
-    fn uncovered(&self) -> Vec<f64> {
-        self.uncovered_at(&self.atmosphere.profile().wavelengths_nm)
-    }
-
-    fn uncovered_at(&self, wavelengths_nm: &[f64]) -> Vec<f64> {
-        self.eclipse.as_ref().map_or_else(|| vec![1.0; wavelengths_nm.len()], |eclipse| eclipse.visible_fractions(wavelengths_nm))
-    }
-
-    /// Solar irradiance outside the air that lights the sky: less during an eclipse [W m-2 nm-1].
-    fn sunlight_in_the_air(&self, wavelengths_nm: &[f64]) -> Vec<f64> {
-        let shares = self.uncovered_at(wavelengths_nm).into_iter().map(eclipse::sky_share);
-        self.sunlight(wavelengths_nm).into_iter().zip(shares).map(|(sunlight, share)| sunlight * share).collect()
-    }
-
-    /// Solar irradiance outside the air [W m-2 nm-1].
-    fn sunlight(&self, wavelengths_nm: &[f64]) -> Vec<f64> {
-        self.atmosphere.solar_irradiance(wavelengths_nm).into_iter().map(|e| e * self.nearness()).collect()
-    }
-
-    /// Transmittance to the disc where it is seen, times the part that the Moon does not cover.
-    fn disc_transmittance(&self, field: &LightField) -> Vec<f64> {
-        let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
-        transmittance.iter().zip(self.uncovered()).map(|(transmittance, uncovered)| transmittance * uncovered).collect()
-    }
-
-    /// The same with the corona, where there is one to be seen.
-    fn direct_transmittance(&self, field: &LightField) -> Vec<f64> {
-        let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
-        let corona = self.corona_share();
-        transmittance
-            .iter()
-            .zip(self.uncovered())
-            .map(|(transmittance, uncovered)| transmittance * (uncovered + corona))
-            .collect()
-    }
-
-    /// Light of the corona over that of the whole Sun; 0 where the Sun outshines it.
-    fn corona_share(&self) -> f64 {
-        self.eclipse.and_then(eclipse::corona).map_or(0.0, |corona| corona.irradiance_ratio())
-    }
-
-    /// Cosine of incidence of the disc on the horizontal plane.
-    fn disc_cosine(&self) -> f64 {
-        self.sun.apparent_altitude_deg.to_radians().sin().max(0.0)
-    }
-
-    fn sun_irradiance_xyz(&self, field: &LightField) -> Result<[f64; 3]> {
-        Ok(sum_of_products(&self.disc_transmittance(field), &self.xyz_weights()?))
-    }
-
-    /// The same without an eclipse.
-    fn whole_sun_irradiance_xyz(&self, field: &LightField) -> Result<[f64; 3]> {
-        let transmittance = self.transmittance_towards(field, self.sun.apparent_altitude_deg.to_radians());
-        Ok(sum_of_products(&transmittance, &self.xyz_weights()?))
-    }
 }
-
-/// A lamp's light of the colour `xyz` as RGB: checked first, because what the gamut does to a colour may hide that it is none.
-fn lamp(xyz: [f64; 3], scale: Scale, color_space: ColorSpace, gamut: Gamut) -> Result<[f64; 3]> {
-    check_finite("the irradiance by the disc", &xyz)?;
-    Ok(color_space.from_xyz_within(xyz.map(|v| v * scale.factor()), gamut))
-}
-
-fn sum_of_products(values: &[f64], weights: &[[f64; 3]]) -> [f64; 3] {
-    let mut xyz = [0.0; 3];
-    for (value, weight) in values.iter().zip(weights) {
-        for k in 0..3 {
-            xyz[k] += value * weight[k];
-        }
-    }
-    xyz
-}
-
-#[cfg(test)]
-mod tests;

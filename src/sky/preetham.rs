@@ -15,8 +15,9 @@
 //!
 //! The fit holds for turbidities from 2 to 10 and a Sun above the horizon. It knows neither height, nor kind of haze, nor night.
 
-use super::SkyLight;
 use super::disc::{Disc, SOLAR_LIMB_DARKENING, Surface};
+use super::place_and_time::Sky;
+use super::sky_light::SkyLight;
 use crate::atmosphere::ozone;
 use crate::ephemeris::Body;
 use crate::error::{Error, Result, check_range};
@@ -155,6 +156,28 @@ fn transmittance(wavelengths_nm: &[f64], turbidity: f64, altitude_deg: f64) -> V
         0.008735 * micrometres.powf(-4.08) + haze * micrometres.powf(-1.3) + ozone
     };
     wavelengths_nm.iter().zip(&ozone).map(|pair| (-mass * depth(pair)).exp()).collect()
+}
+
+/// The analytic sky of Preetham et al. for this Sun, turbidity and ground.
+///
+/// # Errors
+/// [`Error::Input`] for air given as a profile, which has no turbidity, and as [`Preetham::new`].
+pub(super) fn preetham(sky: &Sky) -> Result<Preetham> {
+    let atmosphere = sky.atmosphere();
+    let Some(parameters) = atmosphere.parameters() else {
+        return Err(Error::input("model", "preetham", "scattering for air given as a profile: it has no turbidity"));
+    };
+    let profile = atmosphere.profile();
+    let radius = (profile.sun_angular_radius_deg / sky.sun().distance_au).to_radians();
+    let weights = xyz_weights(&profile.wavelengths_nm, |wavelength| solar::irradiance(wavelength, 1.0));
+    let mean = |k: usize| {
+        let (sum, total) = weights
+            .iter()
+            .zip(&profile.ground_albedo)
+            .fold((0.0, 0.0), |(sum, total), (weight, albedo)| (sum + weight[k] * albedo, total + weight[k]));
+        sum / total
+    };
+    Preetham::new(parameters.resolve()?.turbidity, sky.sun(), radius, [mean(0), mean(1), mean(2)])
 }
 
 impl SkyLight for Preetham {

@@ -26,6 +26,11 @@ pub struct Adaptation {
 }
 
 impl Adaptation {
+    /// Time constants of light and dark adaptation [s].
+    pub const fn time_constants_s(&self) -> [f64; 2] {
+        [self.light_s, self.dark_s]
+    }
+
     /// With a time constant of light adaptation `light_s` and of dark adaptation `dark_s`, 0.001 to 1e5 \[s\].
     ///
     /// # Errors

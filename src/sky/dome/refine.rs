@@ -5,7 +5,7 @@
 //! halving, and what was gathered to check is kept, the error that remains is mostly far below the tolerance.
 //! The thesis chose its pixels so: it rendered more where neighbours differ by more than a tolerance (figures 11 to 13).
 
-use super::Side;
+use super::gathering::Side;
 use super::half::Half;
 use super::shade::{CHUNK, Looks, Places};
 use crate::error::Result;

@@ -11,8 +11,8 @@
 //! That keeps most of the light that extinction alone would lose, as Leinert et al. (1998) have it: diffuse light is dimmed by less than a star, here by about three quarters of the optical depth.
 //! Of even light conservative air of optical depth 0.1, 0.2, 0.5 lets through 0.916, 0.852, 0.722, where the exact values are 0.916, 0.849, 0.704.
 
-use super::super::SkyLight;
 use super::super::disc::Disc;
+use super::super::sky_light::SkyLight;
 use crate::atmosphere::OpticalProfile;
 use crate::celestial::DiffuseLight;
 use crate::error::{Error, Result};

@@ -1,45 +1,16 @@
-//! The Moon: its disc behind the air, and its light in the air.
+//! The Moon's disc behind the air.
 
-use super::super::Sky;
 use super::super::disc::{Disc, Surface, SurfaceMap};
-use crate::celestial::{MoonDisc, MoonView};
+use super::super::place_and_time::Sky;
+use crate::celestial::MoonDisc;
 use crate::ephemeris::{Bodies, MoonState};
 use crate::error::Result;
 use crate::light::LightField;
-use crate::spectrum::{WeightsOfAnySource, solar};
-use crate::units::ASTRONOMICAL_UNIT_KM;
+use crate::spectrum::solar;
 use glam::DVec3;
 
 /// Points across the disc at which the part above the horizon is measured.
 const CUT: usize = 48;
-
-/// The Moon as the observer sees it, airless.
-pub(in super::super) fn moon(bodies: &Bodies) -> Result<MoonDisc> {
-    let state = &bodies.moon;
-    let to_moon_km = state.body.distance_au * ASTRONOMICAL_UNIT_KM * state.body.direction();
-    let to_earth_km = bodies.observer.earth_centre() * ASTRONOMICAL_UNIT_KM;
-    let from_moon = to_earth_km - to_moon_km;
-    MoonDisc::new(MoonView {
-        direction: state.body.direction(),
-        distance_km: to_moon_km.length(),
-        sun_direction: state.illumination.sun_direction,
-        sun_distance_au: state.illumination.sun_distance_au,
-        earth_direction: from_moon.normalize(),
-        earth_distance_km: from_moon.length(),
-        body_to_frame: state.orientation,
-    })
-}
-
-/// Weights that turn radiance per unit irradiance of the Moon into XYZ.
-pub(in super::super) fn moonlight_weights(moon: &MoonDisc, weights: &WeightsOfAnySource) -> Vec<[f64; 3]> {
-    let integrals = moon.component_integrals();
-    weights.of(|wavelength| solar::irradiance(wavelength, 1.0) * irradiance_ratio(moon, integrals, wavelength))
-}
-
-/// The Moon's irradiance outside the air over the Sun's at 1 au, for the integrals of its components.
-fn irradiance_ratio(moon: &MoonDisc, integrals: &[f64], wavelength_nm: f64) -> f64 {
-    integrals.iter().enumerate().map(|(c, integral)| integral * moon.spectrum(c, wavelength_nm)).sum()
-}
 
 /// The Moon's surface with its colours behind the air.
 #[derive(Debug)]
@@ -63,47 +34,43 @@ impl SurfaceMap for MoonMap {
     }
 }
 
-impl Sky {
-    /// The Moon's disc, if any of it is above the horizon.
-    pub(in super::super) fn moon_disc(&self, field: &LightField, bodies: &Bodies) -> Result<Option<Disc>> {
-        let MoonState { body, .. } = &bodies.moon;
-        let radius = (0.5 * body.angular_diameter_deg).to_radians();
-        let vertical_radius = radius * self.refraction().flattening(body.altitude_deg, body.angular_diameter_deg);
-        let (altitude, horizon) = (body.apparent_altitude_deg.to_radians(), self.horizon());
-        if altitude + vertical_radius <= horizon {
-            return Ok(None);
-        }
-        let moon = self.moon(bodies)?;
-        let transmittance = self.transmittance_towards(field, altitude.max(horizon));
-        let mut colours: [Vec<f64>; 3] = Default::default();
-        for component in 0..moon.components() {
-            let source = |wavelength| solar::irradiance(wavelength, 1.0) * moon.spectrum(component, wavelength);
-            let weights = self.atmosphere().weights().of(source);
-            for (k, colours) in colours.iter_mut().enumerate() {
-                colours.push(transmittance.iter().zip(&weights).map(|(transmittance, weight)| transmittance * weight[k]).sum());
-            }
-        }
-        let direction = moon.view().direction;
-        let right = direction.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
-        let map =
-            MoonMap { right, up: right.cross(direction), radius: moon.view().angular_radius(), colours, moon: moon.clone() };
-        let integrals = map.moon.component_integrals();
-        let whole =
-            [0, 1, 2].map(|k| integrals.iter().zip(&map.colours[k]).map(|(integral, colour)| integral * colour).sum::<f64>());
-        let share = visible_share(&map, (horizon - altitude) / vertical_radius);
-        let irradiance: [f64; 3] = std::array::from_fn(|k| whole[k] * share[k]);
-        if irradiance[1] <= 0.0 {
-            return Ok(None);
-        }
-        Ok(Some(Disc {
-            is_sun: false,
-            direction: body.apparent_direction(),
-            horizontal_radius: radius,
-            vertical_radius,
-            irradiance,
-            surface: Surface::Mapped(std::sync::Arc::new(map)),
-        }))
+/// The Moon's disc, if any of it is above the horizon.
+pub(in crate::sky) fn moon_disc(sky: &Sky, field: &LightField, bodies: &Bodies) -> Result<Option<Disc>> {
+    let MoonState { body, .. } = &bodies.moon;
+    let radius = (0.5 * body.angular_diameter_deg).to_radians();
+    let vertical_radius = radius * sky.refraction().flattening(body.altitude_deg, body.angular_diameter_deg);
+    let (altitude, horizon) = (body.apparent_altitude_deg.to_radians(), sky.horizon());
+    if altitude + vertical_radius <= horizon {
+        return Ok(None);
     }
+    let moon = sky.moon(bodies)?;
+    let transmittance = sky.transmittance_towards(field, altitude.max(horizon));
+    let mut colours: [Vec<f64>; 3] = Default::default();
+    for component in 0..moon.components() {
+        let source = |wavelength| solar::irradiance(wavelength, 1.0) * moon.spectrum(component, wavelength);
+        let weights = sky.atmosphere().weights().of(source);
+        for (k, colours) in colours.iter_mut().enumerate() {
+            colours.push(transmittance.iter().zip(&weights).map(|(transmittance, weight)| transmittance * weight[k]).sum());
+        }
+    }
+    let direction = moon.view().direction;
+    let right = direction.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
+    let map = MoonMap { right, up: right.cross(direction), radius: moon.view().angular_radius(), colours, moon: moon.clone() };
+    let integrals = map.moon.component_integrals();
+    let whole = [0, 1, 2].map(|k| integrals.iter().zip(&map.colours[k]).map(|(integral, colour)| integral * colour).sum::<f64>());
+    let share = visible_share(&map, (horizon - altitude) / vertical_radius);
+    let irradiance: [f64; 3] = std::array::from_fn(|k| whole[k] * share[k]);
+    if irradiance[1] <= 0.0 {
+        return Ok(None);
+    }
+    Ok(Some(Disc {
+        is_sun: false,
+        direction: body.apparent_direction(),
+        horizontal_radius: radius,
+        vertical_radius,
+        irradiance,
+        surface: Surface::Mapped(std::sync::Arc::new(map)),
+    }))
 }
 
 /// Share of the light of X, Y and Z that comes from above `from` (in radii, upwards from the centre).

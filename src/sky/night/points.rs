@@ -1,7 +1,7 @@
 //! Stars and planets as points of light behind the air.
 
-use super::super::Sky;
 use super::super::disc::Point;
+use super::super::place_and_time::Sky;
 use crate::celestial::{StarSpectra, planet_irradiance, stars_to};
 use crate::ephemeris::{Bodies, StarFrame, direction_from_horizontal, horizontal_from_direction};
 use crate::error::Result;
@@ -57,57 +57,55 @@ impl Extinction {
     }
 }
 
-impl Sky {
-    /// The planets above the horizon.
-    pub(super) fn planet_points(&self, field: &LightField, bodies: &Bodies) -> Result<Vec<Point>> {
-        let nodes = &self.atmosphere().profile().wavelengths_nm;
-        let weights = self.atmosphere().weights().of(|_| 1.0);
-        let horizon = self.horizon();
-        let points = bodies.planets.iter().filter_map(|state| {
-            let altitude = state.body.apparent_altitude_deg.to_radians();
-            let magnitude = state.body.magnitude.filter(|_| altitude > horizon)?;
-            let extinction = self.transmittance_towards(field, altitude);
-            let mut irradiance = [0.0; 3];
-            let spectrum = planet_irradiance(state.planet, magnitude, nodes);
-            for ((transmittance, value), weight) in extinction.iter().zip(&spectrum).zip(&weights) {
-                (0..3).for_each(|k| irradiance[k] += transmittance * value * weight[k]);
-            }
-            Some(Point { direction: state.body.apparent_direction(), irradiance })
-        });
-        Ok(points.collect())
-    }
+/// The planets above the horizon.
+pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies) -> Result<Vec<Point>> {
+    let nodes = &sky.atmosphere().profile().wavelengths_nm;
+    let weights = sky.atmosphere().weights().of(|_| 1.0);
+    let horizon = sky.horizon();
+    let points = bodies.planets.iter().filter_map(|state| {
+        let altitude = state.body.apparent_altitude_deg.to_radians();
+        let magnitude = state.body.magnitude.filter(|_| altitude > horizon)?;
+        let extinction = sky.transmittance_towards(field, altitude);
+        let mut irradiance = [0.0; 3];
+        let spectrum = planet_irradiance(state.planet, magnitude, nodes);
+        for ((transmittance, value), weight) in extinction.iter().zip(&spectrum).zip(&weights) {
+            (0..3).for_each(|k| irradiance[k] += transmittance * value * weight[k]);
+        }
+        Some(Point { direction: state.body.apparent_direction(), irradiance })
+    });
+    Ok(points.collect())
+}
 
-    /// The stars of magnitude V <= `limit` above the horizon.
-    pub(super) fn star_points(&self, field: &LightField, bodies: &Bodies, limit: f64) -> Result<Vec<Point>> {
-        let nodes = &self.atmosphere().profile().wavelengths_nm;
-        let weights = self.atmosphere().weights().of(|_| 1.0);
-        let spectra = StarSpectra::new(nodes);
-        let extinction = Extinction::new(self, field);
-        let colours: Vec<Vec<[f64; 3]>> =
-            (0..spectra.row_count()).into_par_iter().map(|row| extinction.colours(spectra.row(row), &weights)).collect();
-        let frame = StarFrame::new(&bodies.observer);
-        let years = (bodies.observer.tt() - JulianDate::from_days(2_451_545.0)) / 365.25;
-        let lowest = self.refraction().horizon_true_altitude_deg().to_radians().sin() - 1e-6;
-        let point = |star: &crate::celestial::Star| {
-            let airless = frame.direction_of(star.direction(years));
-            if airless.z < lowest {
-                return None;
-            }
-            let (direction, altitude) = self.refracted(airless);
-            if altitude < extinction.horizon {
-                return None;
-            }
-            let level = 10_f64.powf(-0.4 * star.v_magnitude);
-            let irradiance = extinction.mix(&colours[spectra.row_of(star.b_minus_v)], altitude).map(|value| value * level);
-            Some(Point { direction, irradiance })
-        };
-        Ok(stars_to(limit).par_iter().filter_map(point).collect())
-    }
+/// The stars of magnitude V <= `limit` above the horizon.
+pub(super) fn star_points(sky: &Sky, field: &LightField, bodies: &Bodies, limit: f64) -> Result<Vec<Point>> {
+    let nodes = &sky.atmosphere().profile().wavelengths_nm;
+    let weights = sky.atmosphere().weights().of(|_| 1.0);
+    let spectra = StarSpectra::new(nodes);
+    let extinction = Extinction::new(sky, field);
+    let colours: Vec<Vec<[f64; 3]>> =
+        (0..spectra.row_count()).into_par_iter().map(|row| extinction.colours(spectra.row(row), &weights)).collect();
+    let frame = StarFrame::new(&bodies.observer);
+    let years = (bodies.observer.tt() - JulianDate::from_days(2_451_545.0)) / 365.25;
+    let lowest = sky.refraction().horizon_true_altitude_deg().to_radians().sin() - 1e-6;
+    let point = |star: &crate::celestial::Star| {
+        let airless = frame.direction_of(star.direction(years));
+        if airless.z < lowest {
+            return None;
+        }
+        let (direction, altitude) = refracted(sky, airless);
+        if altitude < extinction.horizon {
+            return None;
+        }
+        let level = 10_f64.powf(-0.4 * star.v_magnitude);
+        let irradiance = extinction.mix(&colours[spectra.row_of(star.b_minus_v)], altitude).map(|value| value * level);
+        Some(Point { direction, irradiance })
+    };
+    Ok(stars_to(limit).par_iter().filter_map(point).collect())
+}
 
-    /// Where a point is seen, and its apparent altitude [radians].
-    fn refracted(&self, airless: DVec3) -> (DVec3, f64) {
-        let (altitude_deg, azimuth_deg) = horizontal_from_direction(airless);
-        let apparent_deg = self.refraction().apparent_altitude_deg(altitude_deg);
-        (direction_from_horizontal(apparent_deg, azimuth_deg), apparent_deg.to_radians())
-    }
+/// Where a point is seen, and its apparent altitude [radians].
+fn refracted(sky: &Sky, airless: DVec3) -> (DVec3, f64) {
+    let (altitude_deg, azimuth_deg) = horizontal_from_direction(airless);
+    let apparent_deg = sky.refraction().apparent_altitude_deg(altitude_deg);
+    (direction_from_horizontal(apparent_deg, azimuth_deg), apparent_deg.to_radians())
 }
