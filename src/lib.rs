@@ -49,6 +49,7 @@ pub mod ephemeris;
 pub mod error;
 pub mod io;
 pub mod light;
+pub mod numerics;
 pub mod parameter;
 pub mod places;
 pub mod post;
