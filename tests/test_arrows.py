@@ -13,10 +13,6 @@ SRC = Path(__file__).resolve().parent.parent / "src"
 
 # Circles between files that stay, as patterns of their names, each with the reason.
 ALLOWED = {
-    ("atmosphere/parameters.rs", "atmosphere/profile.rs"): "what is said of the air, and the profile that it means",
-    ("ephemeris/planet_vsop.rs", "ephemeris/planets.rs"): "the planets by name, and the theory that places each",
-    ("light/air.rs", "light/ray.rs"): "rays are marched through the air that tables are made of by rays",
-    ("light/iterate.rs", "light/solve.rs"): "one algorithm in two files: orders of scattering, and what they are iterated on",
     ("io/exr.rs", "io/read.rs"): "a picture is read by its format, which makes the picture",
     ("io/exr/attributes.rs", "io/exr/part.rs"): "the fields of a part, and how each is read into it",
     ("light/path_tracer.rs", "light/path_tracer/*"): "one algorithm in several files: a walk, its weights, and the guide that they share",
