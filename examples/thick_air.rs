@@ -9,7 +9,8 @@
 //! With `--json` one line an air, with its profile at 550 nm, for `docs/validation/thick_air.py`, which computes the same by adding and doubling. `--polarised` solves with polarisation.
 
 use skyprobe::atmosphere::{AirParameters, Component, OpticalProfile, Phase};
-use skyprobe::light::{LightField, gauss};
+use skyprobe::light::LightField;
+use skyprobe::numerics::gauss;
 use skyprobe::progress::Progress;
 use skyprobe::quality::Quality;
 use std::time::Instant;

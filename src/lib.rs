@@ -6,10 +6,30 @@
 //! directions ──> celestial (light outside the air of all that shines at night)
 //! air ──> atmosphere (optical profile) ──> light: solve ──> light field      (once for one air)
 //! light field + directions + observer ──> light: gather ──> sky ──> probe ──> io: EXR, HDR, PNG
+//! all that is asked for ──> scene ──> sky, probe, files
 //! probe, or a scene lit by it ──> post (glare, tone mapping) ──> io
 //! ```
 //!
 //! Data flows one way: a folder knows nothing of what comes after it.
+//!
+//! ```
+//! use skyprobe::prelude::*;
+//! use std::sync::Arc;
+//!
+//! // A Sun that is put 30 degrees high in the south; with Sky::new a place and a time.
+//! let air = AirParameters { turbidity: Some(3.0), ..Default::default() };
+//! let air = Arc::new(Atmosphere::new(&air, Quality::Draft, true)?);
+//! let sky = Sky::with_sun(30.0, 180.0, 0.0, air)?;
+//! let settings = ProbeSettings { width: 64, ..Default::default() };
+//! let light = sky.light_by(&LightOptions::default(), &Progress::silent())?;
+//! let probe = render(&light, &settings, &Progress::silent())?;
+//! assert_eq!((probe.width, probe.height, probe.pixels.len()), (64, 32, 64 * 32 * 3));
+//! // By day the zenith is blue.
+//! assert!(probe.pixels[2] > probe.pixels[0]);
+//! # Ok::<(), skyprobe::Error>(())
+//! ```
+//!
+//! `examples/` goes on from there, from `1_probe` in five lines to an air of your own in `4_own_air`.
 //!
 //! # Conventions
 //! - Directions are unit vectors in the local frame x = east, y = north, z = up. Azimuth in degrees from north through east,
@@ -29,9 +49,11 @@ pub mod ephemeris;
 pub mod error;
 pub mod io;
 pub mod light;
+pub mod numerics;
 pub mod parameter;
 pub mod places;
 pub mod post;
+pub mod prelude;
 pub mod probe;
 pub mod progress;
 pub mod projection;

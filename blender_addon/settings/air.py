@@ -6,6 +6,7 @@ import math
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from .. import choices, live
+from ..limits import angle_limits, limits
 
 
 class Air:
@@ -31,8 +32,7 @@ class Air:
     aod550: FloatProperty(
         name="Optical Depth",
         description="Vertical optical depth of the particles at 550 nm: 0.05 very clear, 0.1 clear, 0.4 hazy, 2 and more fog",
-        min=0.0,
-        max=50.0,
+        **limits("atmosphere.aod550"),
         soft_max=1.0,
         default=0.1,
         precision=3,
@@ -42,8 +42,7 @@ class Air:
     turbidity: FloatProperty(
         name="Turbidity",
         description="Optical depth of particles and molecules relative to molecules alone: 1 pure air, 2 clear, 6 hazy",
-        min=1.0,
-        max=64.0,
+        **limits("atmosphere.turbidity"),
         soft_max=10.0,
         default=2.5,
         precision=2,
@@ -52,9 +51,9 @@ class Air:
     visibility_km: FloatProperty(
         name="Visibility (km)",
         description="Distance at which a dark object fades into the horizon, in kilometres",
-        min=0.05,
-        max=300.0,
+        **limits("atmosphere.visibility_km"),
         soft_min=1.0,
+        soft_max=300.0,
         default=40.0,
         precision=1,
         step=100,
@@ -67,8 +66,7 @@ class Air:
     ozone_du: FloatProperty(
         name="Ozone (DU)",
         description="Column of ozone in Dobson units: 300 on average; it makes twilight blue",
-        min=0.0,
-        max=1000.0,
+        **limits("atmosphere.ozone_du"),
         soft_min=100.0,
         soft_max=500.0,
         default=300.0,
@@ -83,8 +81,7 @@ class Air:
     relative_humidity: FloatProperty(
         name="Humidity (%)",
         description="Relative humidity: damp air makes the particles larger and the haze whiter",
-        min=0.0,
-        max=99.0,
+        **limits("atmosphere.relative_humidity"),
         default=80.0,
         precision=0,
         step=100,
@@ -99,8 +96,7 @@ class Air:
     stratospheric_aod550: FloatProperty(
         name="Volcanic Haze",
         description="Vertical optical depth at 550 nm of volcanic haze in the stratosphere: 0.15 after the greatest eruptions",
-        min=0.0,
-        max=1.0,
+        **limits("atmosphere.stratospheric_aod550"),
         soft_max=0.3,
         default=0.15,
         precision=3,
@@ -128,15 +124,14 @@ class Filter:
         update=live.changed,
     )
     filter_strength: FloatProperty(
-        name="Strength", description="0 no filter, 1 an ideal one", subtype="FACTOR", min=0.0, max=1.0, default=1.0,
+        name="Strength", description="0 no filter, 1 an ideal one", subtype="FACTOR", **limits("polarising_filter.strength"), default=1.0,
         update=live.changed,
     )
     filter_angle: FloatProperty(
         name="Angle",
         description="Angle of the filter's axis from the vertical, clockwise as one sees it",
         subtype="ANGLE",
-        min=-math.pi,
-        max=math.pi,
+        **angle_limits("polarising_filter.angle_deg"),
         default=0.0,
         step=100,
         update=live.changed,
@@ -145,8 +140,7 @@ class Filter:
         name="Altitude",
         description="Altitude above the horizon towards which the filter is held",
         subtype="ANGLE",
-        min=-math.pi / 2.0,
-        max=math.pi / 2.0,
+        **angle_limits("sun.altitude_deg"),
         default=math.radians(20.0),
         step=100,
         update=live.changed,
@@ -155,8 +149,7 @@ class Filter:
         name="Azimuth",
         description="Azimuth from true north through east towards which the filter is held",
         subtype="ANGLE",
-        min=-2.0 * math.pi,
-        max=2.0 * math.pi,
+        **angle_limits("sun.azimuth_deg"),
         default=0.0,
         step=100,
         update=live.changed,

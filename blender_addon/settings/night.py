@@ -4,6 +4,7 @@
 from bpy.props import EnumProperty, FloatProperty
 
 from .. import choices, live
+from ..limits import limits
 
 
 class Night:
@@ -23,8 +24,7 @@ class Night:
     star_limit: FloatProperty(
         name="Star Limit",
         description="Stars to this magnitude are drawn one by one, fainter ones as part of the Milky Way. A larger number is fainter: 6.5 is what the eye can see",
-        min=-2.0,
-        max=8.5,
+        **limits("night.star_limit"),
         default=8.5,
         precision=1,
         step=50,
@@ -41,8 +41,7 @@ class Night:
         name="Airglow (sfu)",
         description="How strongly the upper air glows, by the Sun's radio flux at 10.7 cm in solar flux units: "
         "70 at the minimum of its activity, 130 on average, 200 at the maximum",
-        min=60.0,
-        max=300.0,
+        **limits("night.solar_flux_sfu"),
         soft_max=200.0,
         default=130.0,
         precision=0,
@@ -53,8 +52,7 @@ class Night:
         name="LED Share",
         description="How much of the town light comes from white LEDs; the rest comes from orange sodium lamps",
         subtype="FACTOR",
-        min=0.0,
-        max=1.0,
+        **limits("night.led_share"),
         default=0.5,
         update=live.changed,
     )

@@ -8,6 +8,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from skyprobe import places
 
 from .. import failures, jobs, live, scene_probe, values, viewport_drawing
+from ..limits import angle_limits, limits
 
 # How many names a search offers.
 SUGGESTIONS = 20
@@ -84,8 +85,7 @@ class PlaceAndTime:
         name="Latitude",
         description="Geographic latitude, north positive",
         subtype="ANGLE",
-        min=-math.pi / 2.0,
-        max=math.pi / 2.0,
+        **angle_limits("latitude"),
         default=math.radians(55.71),
         precision=4,
         step=100,
@@ -95,8 +95,7 @@ class PlaceAndTime:
         name="Longitude",
         description="Geographic longitude, east positive",
         subtype="ANGLE",
-        min=-math.pi,
-        max=math.pi,
+        **angle_limits("longitude"),
         default=math.radians(13.19),
         precision=4,
         step=100,
@@ -105,8 +104,7 @@ class PlaceAndTime:
     elevation_m: FloatProperty(
         name="Elevation (m)",
         description="Height of the observer above sea level, in metres whatever the unit of the scene",
-        min=-500.0,
-        max=60000.0,
+        **limits("elevation_m"),
         soft_max=9000.0,
         default=0.0,
         precision=0,

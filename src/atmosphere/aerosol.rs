@@ -6,7 +6,7 @@
 
 use super::particle_tables::Mixture;
 use super::particles::{Particle, WAVELENGTHS_NM};
-use crate::spectrum::CubicSpline;
+use crate::numerics::CubicSpline;
 use crate::words::words;
 use serde::{Deserialize, Serialize};
 

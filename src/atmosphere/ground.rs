@@ -5,8 +5,8 @@
 //! Res. 99, 18669 (1994), less a little dust); the sea is a wind-roughened surface under a whole sky, about 0.06, and blue water.
 
 use crate::error::{Error, Result, check_range};
+use crate::numerics::CubicSpline;
 use crate::parameter::{Checked, Parameter};
-use crate::spectrum::CubicSpline;
 use crate::words::words;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;

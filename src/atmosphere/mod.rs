@@ -4,6 +4,7 @@
 //! is into an optical depth; [`AirParameters::optical_profile`] is all that the light transport knows.
 
 pub mod aerosol;
+pub mod air;
 mod complex;
 pub mod ground;
 pub mod mie;
@@ -14,6 +15,7 @@ pub mod parameters;
 pub mod particle_tables;
 pub mod particles;
 pub mod phase;
+pub mod phase_function;
 pub mod phase_table;
 pub mod preset;
 pub mod profile;
@@ -21,10 +23,12 @@ pub mod size_distribution;
 pub mod standard_atmosphere;
 
 pub use aerosol::AerosolType;
+pub use air::Air;
 pub use ground::{Ground, Surface};
 pub use optical_profile::{Component, OpticalProfile};
-pub use parameters::{Air, AirParameters, PhaseFunction};
+pub use parameters::AirParameters;
 pub use phase::Phase;
+pub use phase_function::PhaseFunction;
 pub use phase_table::PhaseTable;
 pub use preset::Preset;
 pub use standard_atmosphere::StandardAtmosphere;

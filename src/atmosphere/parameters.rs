@@ -10,16 +10,17 @@
 //! All three mean the aerosol near the ground; that of the stratosphere is said by itself and comes on top.
 
 use super::aerosol::AerosolType;
+use super::air::Air;
 use super::ground::{Ground, Surface};
 use super::molecules;
 use super::optical_profile::OpticalProfile;
+use super::phase_function::PhaseFunction;
 use super::preset::{Amount, Preset};
 use super::profile;
 use super::standard_atmosphere::StandardAtmosphere;
 use crate::error::{Error, Result, check_range};
 use crate::parameter::parameters;
-use crate::words::{Words, words};
-use serde::{Deserialize, Serialize};
+use crate::words::Words;
 
 /// -ln 0.02: how many optical depths away a black object vanishes against the horizon.
 const KOSCHMIEDER: f64 = 3.912;
@@ -29,24 +30,6 @@ const SHORTEST_VISIBILITY_KM: f64 = 0.05;
 
 /// Largest vertical optical depth of the aerosol that is accepted.
 const LARGEST_AOD550: f64 = 50.0;
-
-/// How the aerosol scatters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum PhaseFunction {
-    /// The phase function of its particles by Mie theory, by wavelength.
-    Mie,
-    /// That of Henyey and Greenstein with the asymmetry of the aerosol at 550 nm, or the one given.
-    HenyeyGreenstein,
-    /// That of Cornette and Shanks with this asymmetry.
-    CornetteShanks,
-}
-
-words!(PhaseFunction, "phase_function", {
-    Mie => "mie",
-    HenyeyGreenstein => "henyey_greenstein",
-    CornetteShanks => "cornette_shanks",
-});
 
 parameters! {
     /// The state of the air as the user gives it. Everything but the preset may be left out: the preset fills it in.
@@ -110,43 +93,6 @@ parameters! {
         #[serde(skip_serializing_if = "Option::is_none")]
         surface_pressure_hpa: Option<f64> = None => number(100.0, 1100.0, "hPa").by("that of the standard atmosphere").option("surface-pressure", "HPA").detail();
     }
-}
-
-/// The state of the air with nothing left open.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Air {
-    /// Kind of aerosol.
-    pub aerosol: AerosolType,
-    /// Relative humidity [%].
-    pub relative_humidity: f64,
-    /// Vertical optical depth of the aerosol at 550 nm.
-    pub aod550: f64,
-    /// The same as turbidity.
-    pub turbidity: f64,
-    /// The same as visibility at the ground [km].
-    pub visibility_km: f64,
-    /// Exponent that replaces the aerosol's own spectral extinction.
-    pub angstrom_exponent: Option<f64>,
-    /// Albedo that replaces the aerosol's own.
-    pub single_scattering_albedo: Option<f64>,
-    /// Asymmetry parameter, by default that of the aerosol at 550 nm.
-    pub asymmetry: f64,
-    /// How the aerosol scatters.
-    pub phase_function: PhaseFunction,
-    /// Scale height of the aerosol, depth of a layer of fog [km].
-    pub aerosol_scale_height_km: f64,
-    /// Vertical optical depth of the stratospheric aerosol at 550 nm.
-    pub stratospheric_aod550: f64,
-    /// Altitude of its middle [km].
-    pub stratospheric_altitude_km: f64,
-    /// Ozone column [Dobson units].
-    pub ozone_du: f64,
-    /// Temperature and density profile.
-    pub standard_atmosphere: StandardAtmosphere,
-    /// Pressure at the ground [hPa].
-    pub surface_pressure_hpa: f64,
-    /// The ground.
-    pub ground: Ground,
 }
 
 impl AirParameters {

@@ -17,8 +17,8 @@
 use super::mie::AngularFunctions;
 use super::particles::{Particle, WAVELENGTHS_NM};
 use super::phase_table::PhaseTable;
-use crate::spectrum::CubicSpline;
-use crate::spectrum::spline::cardinal_functions;
+use crate::numerics::CubicSpline;
+use crate::numerics::spline::cardinal_functions;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 

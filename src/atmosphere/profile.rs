@@ -6,13 +6,14 @@
 //! is exactly the column that was asked for.
 
 use super::aerosol::{AerosolOptics, AerosolSpectrum, angstrom};
+use super::air::Air;
 use super::molecules;
 use super::optical_profile::{Component, OpticalProfile};
 use super::ozone;
-use super::parameters::{Air, PhaseFunction};
 use super::particle_tables::Mixture;
 use super::particles::Particle;
 use super::phase::Phase;
+use super::phase_function::PhaseFunction;
 use super::standard_atmosphere::StandardAtmosphere;
 use crate::error::{Result, check_range};
 use crate::spectrum::solar;

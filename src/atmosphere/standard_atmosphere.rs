@@ -8,7 +8,7 @@
 //! Above, its temperature formulas and its tabulated pressure to 140 km, whose logarithm is interpolated by a cubic spline. The other models are the tables of AFGL-TR-86-0110
 //! (Anderson et al. 1986) to 120 km, continued exponentially. Number density n = p / (k T).
 
-use crate::spectrum::CubicSpline;
+use crate::numerics::CubicSpline;
 use crate::spectrum::binned::columns;
 use crate::words::words;
 use serde::{Deserialize, Serialize};

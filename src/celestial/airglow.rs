@@ -21,6 +21,7 @@
 use super::diffuse::DiffuseLight;
 use super::photometry::{add_line, luminous, visible_nm};
 use crate::error::{Result, check_range};
+use crate::numerics::locate_by;
 use crate::units::EARTH_RADIUS_KM;
 use glam::DVec3;
 
@@ -70,9 +71,9 @@ fn rayleigh(wavelength_nm: f64) -> f64 {
 }
 
 fn continuum(wavelength_nm: f64) -> f64 {
-    let right = CONTINUUM.partition_point(|&(w, _)| w <= wavelength_nm).clamp(1, CONTINUUM.len() - 1);
-    let ((w0, v0), (w1, v1)) = (CONTINUUM[right - 1], CONTINUUM[right]);
-    v0 + (v1 - v0) * ((wavelength_nm - w0) / (w1 - w0)).clamp(0.0, 1.0)
+    let (row, share) = locate_by(&CONTINUUM, |row| row.0, wavelength_nm);
+    let (before, after) = (CONTINUUM[row].1, CONTINUUM[row + 1].1);
+    before + (after - before) * share
 }
 
 /// Spectra of the two layers at mean activity, before they are scaled to the published brightness.

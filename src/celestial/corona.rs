@@ -9,7 +9,7 @@
 use super::angle;
 use super::eclipsed_sunlight::{EclipsedSunlight, free_half_arc};
 use super::limb_darkening::mean_intensity;
-use crate::light::gauss::legendre;
+use crate::numerics::gauss::legendre;
 use glam::DVec3;
 use std::f64::consts::PI;
 

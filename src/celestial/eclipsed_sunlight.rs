@@ -23,7 +23,7 @@
 use super::limb_darkening::{DISC_MEAN_OF_POWERS, coefficients, mean_intensity, relative_intensity};
 use super::{angle, check_unit_vector};
 use crate::error::{Result, check_range};
-use crate::light::gauss::legendre;
+use crate::numerics::gauss::legendre;
 use glam::DVec3;
 use std::f64::consts::PI;
 

@@ -6,6 +6,8 @@
 //! Source: Neckel & Labs, Solar Physics 153, 91 (1994), table I (continuum windows between 303 and 1099 nm, here from 374.086 nm).
 //! Between its wavelengths the coefficients are linear.
 
+use crate::numerics::locate_by;
+
 /// Wavelength [nm] and A_0 to A_5.
 const TABLE: [(f64, [f64; 6]); 22] = [
     (374.086, [0.12579, 0.85402, 0.54601, -1.15048, 0.88928, -0.26462]),
@@ -34,9 +36,8 @@ const TABLE: [(f64, [f64; 6]); 22] = [
 
 /// A_0 to A_5 at `wavelength_nm`; those of the ends outside 374 to 949 nm.
 pub fn coefficients(wavelength_nm: f64) -> [f64; 6] {
-    let right = TABLE.partition_point(|row| row.0 <= wavelength_nm).clamp(1, TABLE.len() - 1);
-    let ((low, before), (high, after)) = (TABLE[right - 1], TABLE[right]);
-    let share = ((wavelength_nm - low) / (high - low)).clamp(0.0, 1.0);
+    let (row, share) = locate_by(&TABLE, |row| row.0, wavelength_nm);
+    let (before, after) = (TABLE[row].1, TABLE[row + 1].1);
     std::array::from_fn(|k| before[k] + (after[k] - before[k]) * share)
 }
 

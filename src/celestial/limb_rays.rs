@@ -11,7 +11,7 @@
 //! changes by 1.5 % over the visible).
 
 use crate::atmosphere::{StandardAtmosphere, molecules};
-use crate::light::gauss::legendre;
+use crate::numerics::gauss::legendre;
 use crate::units::EARTH_RADIUS_KM;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;

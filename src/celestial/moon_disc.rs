@@ -19,7 +19,7 @@ use super::shadowed_sunlight::{EarthLimb, ShadowedSunlight};
 use super::{earthshine, moon_map};
 use crate::ephemeris::MOON_RADIUS_KM;
 use crate::error::Result;
-use crate::light::gauss::legendre;
+use crate::numerics::gauss::legendre;
 use crate::units::ASTRONOMICAL_UNIT_KM;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};

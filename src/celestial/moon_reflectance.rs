@@ -12,7 +12,7 @@
 //!
 //! Maria and highlands have different phase functions: their contrast grows with phase angle. [`contrast`] is the exponent of the map.
 
-use crate::light::gauss::legendre;
+use crate::numerics::gauss::legendre;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// D for `phase` alpha and the photometric `longitude` gamma and `latitude` beta [radians]; 0 where it is night or out of sight.

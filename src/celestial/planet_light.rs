@@ -7,6 +7,7 @@
 
 use super::photometry::{V_ZERO_IRRADIANCE, v_band_mean};
 use crate::ephemeris::Planet;
+use crate::numerics::locate;
 use crate::spectrum::solar;
 
 /// Effective wavelengths of the bands U, B, V, mean of Rc and R, Ic, I [nm].
@@ -28,9 +29,8 @@ const fn albedos(planet: Planet) -> [f64; 6] {
 /// Geometric albedo of `planet` at `wavelength_nm`; the end values outside 360 to 900 nm.
 pub fn geometric_albedo(planet: Planet, wavelength_nm: f64) -> f64 {
     let albedos = albedos(planet);
-    let right = BANDS_NM.partition_point(|&band| band <= wavelength_nm).clamp(1, BANDS_NM.len() - 1);
-    let fraction = ((wavelength_nm - BANDS_NM[right - 1]) / (BANDS_NM[right] - BANDS_NM[right - 1])).clamp(0.0, 1.0);
-    albedos[right - 1] + fraction * (albedos[right] - albedos[right - 1])
+    let (band, share) = locate(&BANDS_NM, wavelength_nm);
+    albedos[band] + share * (albedos[band + 1] - albedos[band])
 }
 
 /// Spectral irradiance outside the air of `planet` at magnitude `v_magnitude`, at `wavelengths_nm` (means over 10 nm) [W m-2

@@ -22,7 +22,8 @@ use super::limb_darkening::{self, DISC_MEAN_OF_POWERS};
 use super::limb_rays::{LimbRay, TOP_KM, limb_rays};
 use crate::atmosphere::{molecules, ozone};
 use crate::error::{Result, check_range};
-use crate::light::gauss::legendre;
+use crate::numerics::gauss::legendre;
+use crate::numerics::locate;
 use crate::units::{EARTH_RADIUS_KM, SOLAR_RADIUS_KM};
 use std::f64::consts::PI;
 
@@ -148,10 +149,7 @@ impl ShadowedSunlight {
 
     /// Node below `angle` and the share of the next one; between nodes the transmission is linear.
     pub fn position(&self, angle: f64) -> (usize, f64) {
-        let last = self.last_node();
-        let node = self.angles.partition_point(|&node| node <= angle).clamp(1, last) - 1;
-        let share = (angle - self.angles[node]) / (self.angles[node + 1] - self.angles[node]);
-        (node, share.clamp(0.0, 1.0))
+        locate(&self.angles, angle)
     }
 
     /// Index of the last node, where the transmission is 1.

@@ -8,6 +8,7 @@
 
 use super::photometry::interpolated;
 use super::stars::Star;
+use crate::numerics::locate;
 use std::sync::LazyLock;
 
 /// First wavelength [nm] and step of the table.
@@ -39,12 +40,9 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
 /// nm-1].
 pub(super) fn zero_magnitude_irradiance(b_minus_v: f64, wavelength_nm: f64) -> f64 {
     let table = &*TABLE;
-    let last = table.b_minus_v.len() - 1;
-    let right = table.b_minus_v.partition_point(|&colour| colour <= b_minus_v).clamp(1, last);
-    let (low, high) = (table.b_minus_v[right - 1], table.b_minus_v[right]);
-    let fraction = ((b_minus_v - low) / (high - low)).clamp(0.0, 1.0);
+    let (row, fraction) = locate(&table.b_minus_v, b_minus_v);
     let value = |row: usize| between_nodes(&table.spectra[row], wavelength_nm);
-    value(right - 1) * (value(right) / value(right - 1)).powf(fraction)
+    value(row) * (value(row + 1) / value(row)).powf(fraction)
 }
 
 /// Wavelengths of the table [nm].

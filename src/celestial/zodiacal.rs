@@ -18,6 +18,7 @@
 
 use super::diffuse::DiffuseLight;
 use crate::ephemeris::icrs_to_ecliptic_j2000;
+use crate::numerics::locate;
 use crate::spectrum::binned::columns;
 use crate::spectrum::solar;
 use glam::{DMat3, DVec3};
@@ -47,12 +48,6 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
 fn power_law(longitude_deg: f64, latitude_deg: f64) -> f64 {
     let elongation = (longitude_deg.powf(1.55) + (1.856 * latitude_deg).powf(1.55)).powf(1.0 / 1.55);
     11_500.0 * (elongation.max(0.27) / 15.0).powf(-2.1)
-}
-
-/// Index of the node below and fraction of the way to the next.
-fn locate(nodes: &[f64], x: f64) -> (usize, f64) {
-    let right = nodes.partition_point(|&node| node <= x).clamp(1, nodes.len() - 1);
-    (right - 1, ((x - nodes[right - 1]) / (nodes[right] - nodes[right - 1])).clamp(0.0, 1.0))
 }
 
 /// Radiance at 500 nm at longitude from the Sun 0 to 180 and latitude 0 to 90 [degrees]; W m-2 sr-1 nm-1.

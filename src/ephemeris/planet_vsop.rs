@@ -7,7 +7,7 @@
 //! Largest geocentric errors from 1900 to 2100 against JPL's DE423 [arcseconds], with the cut of `data/scripts/planets_vsop.py`: Mercury 0.1, Venus 0.2,
 //! Mars 0.4, Jupiter 0.5, Saturn 0.4, Uranus 0.9, Neptune 0.6. VSOP87's own Uranus and Neptune are 1.7 and 2.6 arcseconds off.
 
-use super::planets::Planet;
+use super::planet::Planet;
 use super::table_bytes::TableBytes;
 use crate::time::JulianDate;
 use glam::{DMat3, DVec3};

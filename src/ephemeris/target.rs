@@ -3,7 +3,8 @@
 use super::moon::{self, MOON_RADIUS_KM};
 use super::observer::{Apparent, Observer};
 use super::place::Place;
-use super::planets::{self, Planet};
+use super::planet::Planet;
+use super::planets;
 use super::sun;
 use crate::error::{Error, Result};
 use crate::time::Time;

@@ -4,11 +4,11 @@
 //! scattered (delta-M: Wiscombe 1977, J. Atmos. Sci. 34, 1408): with f the first Legendre moment that is left out, scattering and extinction shrink by f times the scattering, and the moments
 //! become (chi - f) / (1 - f). What f stands for comes back when light is gathered ([`super::angular`]).
 
-use super::axis::Axis;
+use super::bends::sharp_bends;
 use super::lanes::{Lanes, add_scaled, lerp, splat};
-use super::ray::sharp_bends;
 use super::stokes::dipole_share;
 use crate::atmosphere::{OpticalProfile, Phase};
+use crate::numerics::Axis;
 use rayon::prelude::*;
 
 /// Coefficients of the air for a block of at most `N` wavelengths; unused lanes repeat the last wavelength.

@@ -20,8 +20,8 @@ mod rows;
 pub use rows::{BLOCK, FunctionRows, Located};
 
 use super::air::forward_share;
-use super::axis::Axis;
 use crate::atmosphere::Phase;
+use crate::numerics::Axis;
 use multiversion::multiversion;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;

@@ -13,8 +13,9 @@
 
 use super::air::Air;
 use super::grid::{Grid, scattering_depths};
+use super::lanes::LANES;
 use super::single::direct_ground_irradiance;
-use super::solve::{Block, LANES};
+use super::solve::Block;
 use super::source::Relative;
 use super::sunlight::Sunlight;
 use crate::atmosphere::{Component, OpticalProfile};

@@ -261,7 +261,7 @@ mod tests {
     fn unpolarised(shape: Shape) -> Vec<Lanes<N>> {
         let mut node = vec![splat(0.0); shape.count()];
         let orders = shape.orders;
-        for (t, weight) in crate::light::gauss::legendre(8) {
+        for (t, weight) in crate::numerics::gauss::legendre(8) {
             let mu = 2.0 * t - 1.0;
             let s = (1.0 - mu * mu).sqrt();
             let waves = [1.0 + 0.3 * mu + 0.5 * mu * mu, s * (0.2 + 0.4 * mu), 0.25 * s * s];

@@ -1,11 +1,10 @@
 //! The grid of the solve: altitude levels, solar zenith angles, and directions at each level.
 
 use super::air::forward_share;
-use super::axis::Axis;
-use super::gauss;
-use super::ray::sharp_bends;
+use super::bends::sharp_bends;
 use super::zenith_axis::ZenithAxis;
 use crate::atmosphere::OpticalProfile;
+use crate::numerics::{Axis, gauss, locate};
 use crate::quality::Numbers;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -133,9 +132,8 @@ impl Measure {
         let (first, last) = (values[0], values[values.len() - 1]);
         let at = |i: usize| {
             let wanted = first + (last - first) * i as f64 / (count + more - 1) as f64;
-            let k = values.partition_point(|&v| v <= wanted).clamp(1, values.len() - 1);
-            let t = (wanted - values[k - 1]) / (values[k] - values[k - 1]);
-            self.altitudes[k - 1] + t.clamp(0.0, 1.0) * (self.altitudes[k] - self.altitudes[k - 1])
+            let (k, t) = locate(&values, wanted);
+            self.altitudes[k] + t * (self.altitudes[k + 1] - self.altitudes[k])
         };
         Axis::new((0..count + more).map(at).collect())
     }

@@ -1,7 +1,7 @@
 //! The field that is consistent with itself, by iteration.
 
 use super::anderson::Anderson;
-use super::solve::LANES;
+use super::lanes::LANES;
 use super::source::Field;
 use crate::error::{Error, Result};
 

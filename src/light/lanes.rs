@@ -2,6 +2,9 @@
 
 use std::ops::{Deref, DerefMut};
 
+/// Width of the blocks of wavelengths.
+pub const LANES: usize = 32;
+
 /// One number for each wavelength of a block. It begins where a line of the cache does: a vector that lies across two of them is loaded at half the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]

@@ -6,7 +6,7 @@
 //! light scatters once (`single`, `sunlight`: exact) and what the solved light scatters into the ray, and the lit ground at its end.
 //! A change of time, place or height needs gathers only.
 //!
-//! Bottom up: `lanes` (blocks of wavelengths), `axis`, `zenith_axis`, `gauss`, `harmonics` (mathematics), `air` (one block of a profile), `ray`
+//! Bottom up: `lanes` (blocks of wavelengths), `zenith_axis`, `harmonics` (mathematics, with [`crate::numerics`]), `air` (one block of a profile), `bends`, `ray`
 //! (steps through the shells), `stokes`, `suns`, `sunlight`, `single`, `grid`, `source`, `contracted`, `anderson`, `iterate`, `solve`, `angular`, `field`.
 //! [`PathTracer`] judges them all: slow, simple, unbiased. [`Thesis`] is the estimator of the original thesis.
 //!
@@ -18,11 +18,10 @@
 mod air;
 mod anderson;
 mod angular;
-mod axis;
 mod balance;
+mod bends;
 mod contracted;
 mod field;
-pub mod gauss;
 mod grid;
 mod harmonics;
 mod iterate;
@@ -39,7 +38,6 @@ pub mod thesis;
 mod zenith_axis;
 
 pub use angular::{AngularFunctions, BLOCK, FunctionRows, Located, Once};
-pub use axis::Axis;
 pub use field::{Gathered, LightField, Observer};
 pub use path_tracer::{Estimate, Guiding, PathTracer};
 pub use stokes::transverse;

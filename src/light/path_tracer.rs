@@ -32,8 +32,6 @@ use crate::atmosphere::OpticalProfile;
 use crate::error::{Error, Result, check_range};
 use crate::progress::Progress;
 use disc::Disc;
-#[cfg(test)]
-use disc::gauss_legendre;
 use glam::DVec3;
 use guide::Guide;
 use medium::Medium;

@@ -5,8 +5,8 @@
 //! transmittance x length, so that a sum over the points of weight x (source per length) is the radiance at the start.
 
 use super::air::Air;
-use super::axis::Axis;
 use super::lanes::{Lanes, add_scaled, exp_minus, splat};
+use crate::numerics::Axis;
 use crate::quality::Numbers;
 use crate::units::EARTH_RADIUS_KM;
 use multiversion::multiversion;
@@ -229,21 +229,6 @@ fn step_ends<const N: usize>(air: &Air<N>, shells: &Axis, altitude: f64, mu: f64
     (ends, false)
 }
 
-/// Part of the vertical optical depth that a bend must move for a step of a ray to end there: the top of a fog does, the bends of a gas between the altitudes of a profile don't.
-const SHARP_BEND: f64 = 0.005;
-
-/// Altitudes at which `density`, linear between `altitudes`, bends so sharply that the two points of a step across it would miss much of the optical depth.
-pub fn sharp_bends(altitudes: &[f64], density: &[f64]) -> Vec<f64> {
-    let step = |i: usize| altitudes[i + 1] - altitudes[i];
-    let slope = |i: usize| (density[i + 1] - density[i]) / step(i);
-    let column: f64 = (0..altitudes.len() - 1).map(|i| 0.5 * step(i) * (density[i] + density[i + 1])).sum();
-    let bends = (1..altitudes.len() - 1).filter(|&i| {
-        let length = 0.5 * (step(i - 1) + step(i));
-        (slope(i) - slope(i - 1)).abs() * length * length > SHARP_BEND * column
-    });
-    bends.map(|i| altitudes[i]).collect()
-}
-
 /// Sorts, and drops steps too short to matter.
 fn tidy(ends: &mut Vec<f64>) {
     ends.sort_by(f64::total_cmp);
@@ -296,15 +281,6 @@ mod tests {
         let ray = Ray::trace(&air, &shells, 0.0, 0.0, limits);
         let seen: f32 = ray.points.iter().map(|p| p.weight[0] * air.extinction(p.place)[0]).sum();
         assert!((f64::from(seen) / (1.0 - (-chapman).exp()) - 1.0).abs() < 1e-3, "{seen}");
-    }
-
-    #[test]
-    fn the_top_of_a_fog_is_a_bend_and_a_gas_has_none() {
-        let altitudes: Vec<f64> = (0..=100).map(|i| f64::from(i) * 0.1).collect();
-        let gas: Vec<f64> = altitudes.iter().map(|z| (-z / 8.0).exp()).collect();
-        assert!(sharp_bends(&altitudes, &gas).is_empty());
-        let fog: Vec<f64> = altitudes.iter().zip(&gas).map(|(z, gas)| 0.01 * gas + if *z < 0.25 { 1.0 } else { 0.0 }).collect();
-        assert_eq!(sharp_bends(&altitudes, &fog), [altitudes[2], altitudes[3]]);
     }
 
     #[test]

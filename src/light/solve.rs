@@ -10,7 +10,7 @@ use super::contracted::Contracted;
 use super::grid::{Azimuth, Grid, azimuth_interpolation, azimuths};
 use super::harmonics::{self, Orders};
 use super::iterate::iterate;
-use super::lanes::{Lanes, add_product, add_scaled, processor_fuses, splat};
+use super::lanes::{LANES, Lanes, add_product, add_scaled, processor_fuses, splat};
 use super::ray::{Ray, StepLimits};
 use super::single::{add_strengths, direct_ground_irradiance};
 use super::source::{Field, MAX_ORDER, Relative, Shape};
@@ -23,9 +23,6 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Width of the blocks of wavelengths.
-pub const LANES: usize = 32;
 
 /// Orders at which the field is iterated to convergence: those that carry energy from place to place.
 const LOW_ORDER: usize = 2;

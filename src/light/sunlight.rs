@@ -5,10 +5,10 @@
 //! and the ground hides a part of it, the mean over the disc (uniform), integrated in horizontal strips, is tabulated.
 
 use super::air::Air;
-use super::axis::Axis;
-use super::gauss;
 use super::lanes::{Lanes, add_scaled, exp_minus, exp_one, splat};
 use super::ray::{Ray, StepLimits};
+use crate::numerics::Axis;
+use crate::numerics::gauss;
 use crate::units::EARTH_RADIUS_KM;
 use multiversion::multiversion;
 use rayon::prelude::*;

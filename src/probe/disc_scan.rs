@@ -14,7 +14,7 @@
 //! Both integrals use the sine of a parameter as variable, which removes the square roots at the ends; they are cut at
 //! knots where the caller's integrand has edges, so that the coverage of pixels is exact rather than sampled.
 
-use crate::projection::quadrature::GaussLegendre;
+use crate::numerics::GaussLegendre;
 use crate::sky::Disc;
 use std::f64::consts::PI;
 

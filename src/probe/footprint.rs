@@ -5,7 +5,7 @@
 //! Columns are sampled in the same way. How many nodes there are depends on the width ([`Sampling::of`]): a pixel of 0.2 degrees needs one.
 
 use super::settings::GroundView;
-use crate::projection::quadrature::GaussLegendre;
+use crate::numerics::GaussLegendre;
 use crate::projection::{LatLong, Row, Rows};
 use std::f64::consts::FRAC_PI_2;
 

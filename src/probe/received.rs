@@ -11,7 +11,7 @@
 //! The pixels of an image whose rows are no circles are summed one by one; those that the plane cuts, in parts.
 
 use super::image::Probe;
-use crate::projection::quadrature::GaussLegendre;
+use crate::numerics::GaussLegendre;
 use crate::projection::{Geometry, LatLong, Row, Rows};
 use glam::DVec3;
 use rayon::prelude::*;

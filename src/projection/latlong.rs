@@ -20,7 +20,7 @@
 
 use super::choices::{Extent, Projection, Rows};
 use super::geometry::{Footprint, Geometry};
-use super::quadrature::GaussLegendre;
+use crate::numerics::GaussLegendre;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

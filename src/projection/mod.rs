@@ -23,7 +23,6 @@ mod latlong;
 #[cfg(test)]
 pub(crate) mod octahedral;
 mod perspective;
-pub(crate) mod quadrature;
 #[cfg(test)]
 mod tests;
 mod view;

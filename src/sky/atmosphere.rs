@@ -6,9 +6,10 @@ use super::turn::Turn;
 use crate::atmosphere::{AirParameters, OpticalProfile};
 use crate::error::{Error, Result};
 use crate::light::LightField;
+use crate::numerics::CubicSpline;
 use crate::progress::Progress;
 use crate::quality::Quality;
-use crate::spectrum::{CubicSpline, WeightsOfAnySource, solar, wavelengths};
+use crate::spectrum::{WeightsOfAnySource, solar, wavelengths};
 use std::sync::OnceLock;
 
 /// The air and the light in it. The light is solved once, when it is first needed, and serves every place, time and height.

@@ -66,8 +66,8 @@ impl Sky {
             Model::ThesisSingle => Box::new(thesis(self, ThesisOptions { secondary_rays: 0, ..Default::default() })?),
         };
         let mut layers = Layers::new(light.horizon_altitude());
-        layers.add(Layer::Sun, options.layers.of(Layer::Sun), Part { discs: light.discs(), ..Default::default() });
-        layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part { smooth: vec![light], ..Default::default() });
+        layers.add(Layer::Sun, options.layers.of(Layer::Sun), Part::discs(light.discs()));
+        layers.add(Layer::Sky, options.layers.of(Layer::Sky), Part::smooth(light));
         Ok(layers)
     }
 
@@ -78,12 +78,12 @@ impl Sky {
         let mut layers = night_light(self, field, &options.layers, wanted, progress)?;
         let scale = |layer: Layer| options.layers.of(layer);
         let dome = self.filtered_light(options.polarising_filter.as_ref(), options.tolerance, progress)?;
-        layers.add(Layer::Sun, scale(Layer::Sun), Part { discs: dome.discs(), ..Default::default() });
+        layers.add(Layer::Sun, scale(Layer::Sun), Part::discs(dome.discs()));
         let smooth: Box<dyn SkyLight + Send> = match Sunlight::of(self).gain_under_eclipse(field, progress)? {
             Some(gain) => Box::new(EclipsedDome { dome, gain }),
             None => Box::new(dome),
         };
-        layers.add(Layer::Sky, scale(Layer::Sky), Part { smooth: vec![smooth], ..Default::default() });
+        layers.add(Layer::Sky, scale(Layer::Sky), Part::smooth(smooth));
         Ok(layers)
     }
 

@@ -2,7 +2,8 @@
 
 use super::sky_light::SkyLight;
 use crate::error::{Result, check_finite};
-use crate::light::{LightField, Observer, gauss};
+use crate::light::{LightField, Observer};
+use crate::numerics::gauss;
 use crate::progress::Progress;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -1,25 +1,42 @@
-//! The light of a sky by its sources: each can be scaled, left out, or looked at alone.
+//! The light of a sky as an ordered stack of what it is made of: each part stands before what is farther away, and belongs to a layer that can be scaled, left out, or looked at alone.
+//!
+//! A part at one [`Distance`] has light L and lets through T of what is behind it. Nearer over farther is
+//! ```text
+//! (L1, T1) over (L2, T2) = (L1 + T1 L2, T1 T2),
+//! ```
+//! component by component in X, Y and Z (Porter & Duff 1984, with a colour for 1 - alpha); it is associative and does not commute. Parts at one distance stand beside one another: their light adds up,
+//! the product of their transmittances dims what is behind. A layer alone is its light as it arrives, dimmed by all that stands before it, so that the layers add up to the picture whatever is scaled:
+//! a factor is on a layer's light, not on what it hides, and only 0 takes the layer away with both.
+
+mod dimmed;
+mod part;
+#[cfg(test)]
+mod tests;
 
 use super::disc::{Disc, Point};
 use super::options::Layer;
 use super::sky_light::SkyLight;
-use std::collections::BTreeMap;
-
-/// What one layer is made of.
-#[derive(Default)]
-pub struct Part {
-    /// Light that can be asked for in any direction.
-    pub smooth: Vec<Box<dyn SkyLight + Send>>,
-    /// Discs above the horizon.
-    pub discs: Vec<Disc>,
-    /// Points above the horizon.
-    pub points: Vec<Point>,
-}
+use dimmed::Before;
+pub use part::{Distance, Part, Transmittance};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// The light of a sky, whole and by layers.
 pub struct Layers {
     horizon: f64,
-    parts: BTreeMap<Layer, (f32, Part)>,
+    /// From far to near.
+    parts: BTreeMap<(Distance, Layer), Scaled>,
+    /// Whether anything stands before anything.
+    hides: bool,
+}
+
+/// All parts of one layer at one distance.
+struct Scaled {
+    scale: f32,
+    smooth: Vec<Box<dyn SkyLight + Send>>,
+    discs: Vec<Disc>,
+    points: Vec<Point>,
+    transmittances: Vec<Arc<dyn Transmittance>>,
 }
 
 /// Directions for which there is room without asking for memory.
@@ -28,48 +45,102 @@ const FEW: usize = 64;
 impl Layers {
     /// A sky without light, with the horizon at the altitude `horizon` [radians].
     pub fn new(horizon: f64) -> Self {
-        Self { horizon, parts: BTreeMap::new() }
+        Self { horizon, parts: BTreeMap::new(), hides: false }
     }
 
-    /// Adds `part` to `layer`, its light times `scale`; a layer of scale 0 stays away.
+    /// Adds `part` to `layer`, its light times `scale`; of scale 0 it stays away with what it hides.
     pub fn add(&mut self, layer: Layer, scale: f64, part: Part) {
         if scale > 0.0 {
-            let (_, there) = self.parts.entry(layer).or_insert_with(|| (scale as f32, Part::default()));
+            self.hides |= part.transmittance.is_some();
+            let empty = || Scaled {
+                scale: scale as f32,
+                smooth: Vec::new(),
+                discs: Vec::new(),
+                points: Vec::new(),
+                transmittances: Vec::new(),
+            };
+            let there = self.parts.entry((part.distance, layer)).or_insert_with(empty);
             there.smooth.extend(part.smooth);
             there.discs.extend(part.discs);
             there.points.extend(part.points);
+            there.transmittances.extend(part.transmittance);
         }
     }
 
     /// The layers that there are.
     pub fn names(&self) -> Vec<Layer> {
-        self.parts.keys().copied().collect()
+        self.parts.keys().map(|(_, layer)| *layer).collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    /// The light of `layer` alone; none if there is no such layer.
+    /// The light of `layer` alone, as it arrives; none if there is no such layer.
     pub fn only(&self, layer: Layer) -> OneLayer<'_> {
-        OneLayer { horizon: self.horizon, part: self.parts.get(&layer) }
+        OneLayer { layers: self, layer }
     }
 
-    fn each(&self) -> impl Iterator<Item = OneLayer<'_>> {
-        self.parts.values().map(|part| OneLayer { horizon: self.horizon, part: Some(part) })
+    /// The parts of `layer`, or of all, from far to near.
+    fn each(&self, layer: Option<Layer>) -> impl Iterator<Item = (Distance, &Scaled)> {
+        let of_layer = move |(key, _): &(&(Distance, Layer), _)| layer.is_none_or(|layer| layer == key.1);
+        self.parts.iter().filter(of_layer).map(|((distance, _), part)| (*distance, part))
+    }
+
+    /// All that dims light of `distance`.
+    fn before(&self, distance: Distance) -> Before {
+        let nearer = self.parts.iter().filter(|((other, _), _)| *other > distance);
+        nearer.flat_map(|(_, part)| part.transmittances.iter().cloned()).collect()
+    }
+
+    /// Adds up the smooth radiance of `layer`, or of all, along a circle of equal altitude, from far to near.
+    fn circle(&self, layer: Option<Layer>, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
+        fill(out, |space, out| {
+            if !self.hides {
+                return self.each(layer).for_each(|(_, part)| part.add_circle(altitude, azimuths, space, out));
+            }
+            for distance in Distance::ALL {
+                let here = || self.parts.iter().filter(move |((other, _), _)| *other == distance);
+                for one in here().flat_map(|(_, part)| &part.transmittances) {
+                    one.transmittance_circle(altitude, azimuths, space);
+                    out.as_flattened_mut().iter_mut().zip(space.as_flattened()).for_each(|(light, share)| *light *= share);
+                }
+                let lit = here().filter(|((_, other), _)| layer.is_none_or(|layer| layer == *other));
+                lit.for_each(|(_, part)| part.add_circle(altitude, azimuths, space, out));
+            }
+        });
+    }
+
+    fn seen_discs(&self, layer: Option<Layer>) -> Vec<Disc> {
+        let seen = |(distance, part): (Distance, &Scaled)| {
+            let scale = f64::from(part.scale);
+            let scaled = part.discs.iter().map(|disc| Disc { irradiance: disc.irradiance.map(|v| v * scale), ..disc.clone() });
+            let before = self.before(distance);
+            if before.is_empty() {
+                return scaled.collect::<Vec<_>>();
+            }
+            scaled.filter_map(|disc| dimmed::disc(&disc, self.horizon, &before)).collect()
+        };
+        self.each(layer).flat_map(seen).collect()
+    }
+
+    fn seen_points(&self, layer: Option<Layer>) -> Vec<Point> {
+        let seen = |(distance, part): (Distance, &Scaled)| {
+            let scale = f64::from(part.scale);
+            let scaled = part.points.iter().map(|point| Point { irradiance: point.irradiance.map(|v| v * scale), ..*point });
+            let before = self.before(distance);
+            if before.is_empty() {
+                return scaled.collect::<Vec<_>>();
+            }
+            scaled.map(|point| dimmed::point(&point, &before)).collect()
+        };
+        self.each(layer).flat_map(seen).collect()
     }
 }
 
-/// One layer of [`Layers`].
-pub struct OneLayer<'a> {
-    horizon: f64,
-    part: Option<&'a (f32, Part)>,
-}
-
-impl OneLayer<'_> {
+impl Scaled {
     /// Adds the smooth radiance along a circle of equal altitude to `out`; `space` is as long.
     fn add_circle(&self, altitude: f64, azimuths: &[f64], space: &mut [[f32; 3]], out: &mut [[f32; 3]]) {
-        let Some((scale, part)) = self.part else { return };
-        for light in &part.smooth {
+        for light in &self.smooth {
             light.radiance_circle(altitude, azimuths, space);
             for (sum, value) in out.as_flattened_mut().iter_mut().zip(space.as_flattened()) {
-                *sum += scale * value;
+                *sum += self.scale * value;
             }
         }
     }
@@ -85,35 +156,37 @@ fn fill(out: &mut [[f32; 3]], mut add: impl FnMut(&mut [[f32; 3]], &mut [[f32; 3
     }
 }
 
+/// One layer of [`Layers`] as it arrives: scaled, and dimmed by what stands before it.
+pub struct OneLayer<'a> {
+    layers: &'a Layers,
+    layer: Layer,
+}
+
 impl SkyLight for OneLayer<'_> {
     fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
-        fill(out, |space, out| self.add_circle(altitude, azimuths, space, out));
+        self.layers.circle(Some(self.layer), altitude, azimuths, out);
     }
 
     fn horizon_altitude(&self) -> f64 {
-        self.horizon
+        self.layers.horizon
     }
 
     fn discs(&self) -> Vec<Disc> {
-        let Some((scale, part)) = self.part else { return Vec::new() };
-        let scaled = |disc: &Disc| Disc { irradiance: disc.irradiance.map(|value| value * f64::from(*scale)), ..disc.clone() };
-        part.discs.iter().map(scaled).collect()
+        self.layers.seen_discs(Some(self.layer))
     }
 
     fn points(&self) -> Vec<Point> {
-        let Some((scale, part)) = self.part else { return Vec::new() };
-        let scaled = |point: &Point| Point { irradiance: point.irradiance.map(|value| value * f64::from(*scale)), ..*point };
-        part.points.iter().map(scaled).collect()
+        self.layers.seen_points(Some(self.layer))
     }
 }
 
 impl SkyLight for Layers {
     fn radiance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
-        let mut smooth = self.parts.values().flat_map(|(scale, part)| part.smooth.iter().map(move |light| (*scale, light)));
-        if let (Some((1.0, only)), None) = (smooth.next(), smooth.next()) {
+        let mut smooth = self.parts.values().flat_map(|part| part.smooth.iter().map(move |light| (part.scale, light)));
+        if let (Some((1.0, only)), None, false) = (smooth.next(), smooth.next(), self.hides) {
             return only.radiance_circle(altitude, azimuths, out);
         }
-        fill(out, |space, out| self.each().for_each(|layer| layer.add_circle(altitude, azimuths, space, out)));
+        self.circle(None, altitude, azimuths, out);
     }
 
     fn horizon_altitude(&self) -> f64 {
@@ -121,66 +194,17 @@ impl SkyLight for Layers {
     }
 
     fn discs(&self) -> Vec<Disc> {
-        self.each().flat_map(|layer| layer.discs()).collect()
+        self.seen_discs(None)
     }
 
     fn points(&self) -> Vec<Point> {
-        self.each().flat_map(|layer| layer.points()).collect()
+        self.seen_points(None)
     }
 
     fn layers(&self) -> Vec<(&'static str, Box<dyn SkyLight + '_>)> {
         let mut layers: Vec<(_, Box<dyn SkyLight + '_>)> =
-            self.parts.keys().map(|&layer| (layer.name(), Box::new(self.only(layer)) as _)).collect();
+            self.names().into_iter().map(|layer| (layer.name(), Box::new(self.only(layer)) as _)).collect();
         layers.sort_by_key(|(name, _)| *name);
         layers
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::DVec3;
-
-    /// The same light everywhere.
-    struct Even(f32);
-
-    impl SkyLight for Even {
-        fn radiance_circle(&self, _: f64, _: &[f64], out: &mut [[f32; 3]]) {
-            out.fill([self.0, 2.0 * self.0, 0.0]);
-        }
-
-        fn horizon_altitude(&self) -> f64 {
-            0.0
-        }
-
-        fn discs(&self) -> Vec<Disc> {
-            Vec::new()
-        }
-    }
-
-    #[test]
-    fn the_whole_is_the_sum_of_its_layers() {
-        let mut layers = Layers::new(-0.01);
-        let point = Point { direction: DVec3::Z, irradiance: [1.0, 2.0, 3.0] };
-        layers.add(Layer::Sky, 1.0, Part { smooth: vec![Box::new(Even(1.0)), Box::new(Even(0.5))], ..Default::default() });
-        layers.add(Layer::Airglow, 2.0, Part { smooth: vec![Box::new(Even(0.25))], ..Default::default() });
-        layers.add(Layer::Stars, 0.5, Part { points: vec![point], ..Default::default() });
-        layers.add(Layer::Zodiacal, 0.0, Part { smooth: vec![Box::new(Even(9.0))], ..Default::default() });
-        assert_eq!(layers.names(), [Layer::Sky, Layer::Stars, Layer::Airglow]);
-        for count in [1, 3, FEW + 1] {
-            let azimuths = vec![0.0; count];
-            let mut whole = vec![[7.0; 3]; count];
-            layers.radiance_circle(0.3, &azimuths, &mut whole);
-            assert_eq!(whole, vec![[2.0, 4.0, 0.0]; count]);
-            let mut sum = vec![[0.0; 3]; count];
-            for layer in Layer::ALL {
-                let mut own = vec![[7.0; 3]; count];
-                layers.only(layer).radiance_circle(0.3, &azimuths, &mut own);
-                sum.as_flattened_mut().iter_mut().zip(own.as_flattened()).for_each(|(sum, own)| *sum += own);
-            }
-            assert_eq!(sum, whole);
-        }
-        assert_eq!(layers.points()[0].irradiance, [0.5, 1.0, 1.5]);
-        assert_eq!(layers.horizon_altitude(), -0.01);
     }
 }

@@ -30,7 +30,7 @@ pub use cache::Cache;
 pub use disc::{Disc, Point, Surface, SurfaceMap};
 pub use dome::SkyDome;
 pub use irradiance::{Illuminance, Irradiance};
-pub use layers::{Layers, OneLayer, Part};
+pub use layers::{Distance, Layers, OneLayer, Part, Transmittance};
 pub use options::{Layer, LayerScales, LightOptions, Model, NightOptions, PolarisingFilter, When};
 pub use place_and_time::Sky;
 pub use preetham::Preetham;

@@ -6,8 +6,8 @@ use super::sunlight::Sunlight;
 use crate::ephemeris::horizontal_from_direction;
 use crate::error::{Error, Result, check_finite};
 use crate::light::{Gathered, LightField, transverse};
+use crate::numerics::CubicSpline;
 use crate::progress::Progress;
-use crate::spectrum::CubicSpline;
 use glam::DVec3;
 use rayon::prelude::*;
 

@@ -5,11 +5,9 @@ pub mod color_space;
 pub mod grid;
 pub mod observer;
 pub mod solar;
-pub mod spline;
 pub mod weights;
 
 pub use binned::BinnedSpectrum;
 pub use color_space::{Chromaticities, ColorSpace, Gamut};
 pub use grid::wavelengths;
-pub use spline::CubicSpline;
 pub use weights::{WeightsOfAnySource, xyz_weights};

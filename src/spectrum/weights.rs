@@ -8,7 +8,7 @@
 //! cubic spline on the nodes lambda_i. The weights cost nothing at run time.
 
 use super::observer;
-use super::spline::cardinal_functions;
+use crate::numerics::spline::cardinal_functions;
 
 /// The weights w_i of the module's equation for the nodes `wavelengths_nm` [nm] (ascending, at least one) and the irradiance
 /// `source` of a light source [W m-2 nm-1], given as means over 1 nm by wavelength.

@@ -10,7 +10,7 @@
 
 use std::sync::LazyLock;
 
-static TABLE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| super::scales::read_table(include_str!("../../data/delta_t.csv")));
+static TABLE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| super::table::read_table(include_str!("../../data/delta_t.csv")));
 
 /// Julian date at which the table ends.
 pub(super) fn table_end() -> f64 {

@@ -2,8 +2,7 @@
 
 use std::sync::LazyLock;
 
-static TABLE: LazyLock<Vec<(f64, f64)>> =
-    LazyLock::new(|| super::scales::read_table(include_str!("../../data/leap_seconds.csv")));
+static TABLE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| super::table::read_table(include_str!("../../data/leap_seconds.csv")));
 
 /// Julian date of 1972-01-01, from which UTC is a whole number of seconds behind TAI.
 pub(super) const UTC_BEGINS: f64 = 2_441_317.5;

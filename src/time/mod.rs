@@ -17,6 +17,7 @@ mod leap_seconds;
 mod notice;
 mod parse;
 mod scales;
+mod table;
 mod text;
 mod zone_lookup;
 mod zones;

@@ -35,14 +35,3 @@ pub(super) fn utc_from(tt: JulianDate, ut1: JulianDate) -> JulianDate {
     // UT1 is within a second of UTC, so it tells the leap seconds but for the second in which one is introduced.
     tt.plus_seconds(-tai_minus_utc_s(ut1.days()) - TT_MINUS_TAI_S)
 }
-
-/// Two columns of numbers, comma separated, under one line of names. Only for embedded tables, which the tests read in full.
-pub(super) fn read_table(text: &str) -> Vec<(f64, f64)> {
-    text.lines()
-        .skip(1)
-        .filter_map(|line| {
-            let (first, second) = line.split_once(',')?;
-            Some((first.parse().ok()?, second.parse().ok()?))
-        })
-        .collect()
-}

@@ -207,7 +207,7 @@ fn manual_pages_are_written_all_or_none() {
     }
     fs::write(at("skyprobe.1"), "old").unwrap();
     assert!(tool(folder.path(), &["man", "--folder", "."]).status.success());
-    let pages = ["completions", "glare", "info", "man", "places", "render", "tonemap"];
+    let pages = ["completions", "glare", "info", "man", "places", "render", "schema", "tonemap"];
     let mut names: Vec<String> = pages.iter().map(|name| format!("skyprobe-{name}.1")).collect();
     names.push("skyprobe.1".to_owned());
     assert_eq!(files(folder.path()), names);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use skyprobe::atmosphere::AirParameters;
 use skyprobe::ephemeris::{Place, SunModel, direction_from_horizontal};
-use skyprobe::light::gauss;
+use skyprobe::numerics::gauss;
 use skyprobe::probe::{Probe, ProbeSettings, Rows, render};
 use skyprobe::progress::Progress;
 use skyprobe::quality::Quality;

@@ -9,6 +9,7 @@ mod cli;
 mod cli_files;
 mod colour;
 mod energy;
+mod examples;
 mod hazes_and_twilight;
 mod night;
 mod night_eclipses;

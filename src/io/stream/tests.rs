@@ -111,6 +111,18 @@ fn bands_are_whole_blocks_that_cover_the_picture() {
     }
 }
 
+/// Lets through less of what is low and in the east.
+struct Veil;
+
+impl crate::sky::Transmittance for Veil {
+    fn transmittance_circle(&self, altitude: f64, azimuths: &[f64], out: &mut [[f32; 3]]) {
+        let share = |azimuth: &f64| (0.5 + 0.3 * altitude.sin() - 0.1 * azimuth.sin()) as f32;
+        out.iter_mut()
+            .zip(azimuths)
+            .for_each(|(out, azimuth)| *out = [share(azimuth), 0.9 * share(azimuth), 0.8 * share(azimuth)]);
+    }
+}
+
 /// Layers stand beside their sum, for any reader of OpenEXR.
 #[test]
 fn layers_are_channels_whose_sum_is_the_picture() {
@@ -118,12 +130,14 @@ fn layers_are_channels_whose_sum_is_the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("layers.exr");
     let mut light = crate::sky::Layers::new(0.0);
-    let part = || crate::sky::Part { smooth: vec![Box::new(Painted)], ..Default::default() };
+    let part = || crate::sky::Part::smooth(Box::new(Painted));
     let point = crate::sky::Point { direction: DVec3::new(0.0, 0.6, 0.8), irradiance: [0.19, 0.2, 0.22] };
     light.add(crate::sky::Layer::Zodiacal, 0.25, part());
+    let veil = part().at(crate::sky::Distance::Clouds).with_transmittance(std::sync::Arc::new(Veil));
+    light.add(crate::sky::Layer::Airglow, 0.5, veil);
     light.add(crate::sky::Layer::Sky, 1.0, part());
-    light.add(crate::sky::Layer::Sun, 1.0, crate::sky::Part { discs: Painted.discs(), ..Default::default() });
-    light.add(crate::sky::Layer::Stars, 3.0, crate::sky::Part { points: vec![point], ..Default::default() });
+    light.add(crate::sky::Layer::Sun, 1.0, crate::sky::Part::discs(Painted.discs()));
+    light.add(crate::sky::Layer::Stars, 3.0, crate::sky::Part::points(vec![point]));
     let settings = ProbeSettings { width: 1024, ..Default::default() };
     let options = FileOptions { layers: true, ..Default::default() };
     render_to_files(&light, &settings, &[&path], &options, &Metadata::default(), &Progress::silent()).unwrap();
@@ -135,18 +149,68 @@ fn layers_are_channels_whose_sum_is_the_picture() {
     let image = read_all_flat_layers_from_file(&path).unwrap();
     let channels = &image.layer_data[0].channel_data.list;
     let names: Vec<String> = channels.iter().map(|channel| channel.name.to_string()).collect();
-    assert_eq!(names.len(), 15);
-    assert!(names.is_sorted() && names[..4] == ["B", "G", "R", "sky.B"] && names[14] == "zodiacal.R", "{names:?}");
+    assert_eq!(names.len(), 18);
+    assert!(names.is_sorted() && names[..4] == ["B", "G", "R", "airglow.B"] && names[17] == "zodiacal.R", "{names:?}");
     let values = |name: &str| {
         let channel = channels.iter().find(|channel| channel.name.to_string() == name).unwrap();
         let FlatSamples::F32(values) = &channel.sample_data else { panic!("float32") };
         values.clone()
     };
-    let sum: Vec<f32> = ["sky", "stars", "sun", "zodiacal"]
+    let sum: Vec<f32> = ["airglow", "sky", "stars", "sun", "zodiacal"]
         .iter()
         .map(|name| values(&format!("{name}.G")))
         .fold(vec![0.0; 1024 * 512], |sum, layer| sum.iter().zip(&layer).map(|(a, b)| a + b).collect());
     let largest = values("G").iter().zip(&sum).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
     assert!(largest < 1e-6, "{largest}");
     assert!(values("stars.R").iter().filter(|&&value| value > 0.0).count() <= 4);
+}
+
+/// Hides what is more than 40 degrees above the horizontal.
+struct Blind;
+
+impl crate::sky::Transmittance for Blind {
+    fn transmittance_circle(&self, altitude: f64, _: &[f64], out: &mut [[f32; 3]]) {
+        out.fill([if altitude > 40_f64.to_radians() { 0.0 } else { 1.0 }; 3]);
+    }
+}
+
+#[test]
+fn what_hides_half_the_sun_hides_it_in_the_picture_and_takes_half_of_its_light() {
+    use crate::sky::{Disc, Distance, Layer, Layers, Part, Surface};
+    let (up, north) = 40_f64.to_radians().sin_cos();
+    let disc = Disc {
+        is_sun: true,
+        direction: DVec3::new(0.0, north, up),
+        horizontal_radius: 0.0047,
+        vertical_radius: 0.0047,
+        irradiance: [1.0; 3],
+        surface: Surface::LimbDarkened([[0.4, 0.2]; 3]),
+    };
+    for width in [256, 4096] {
+        let settings = ProbeSettings { width, ..Default::default() };
+        let grid = settings.grid();
+        let row_of = |altitude_deg: f64| ((90.0 - altitude_deg) / 180.0 * width as f64 / 2.0) as usize;
+        // Light in the picture, and that more than a tenth of a degree above the edge of the blind.
+        let lit = |hidden: bool| {
+            let mut light = Layers::new(0.0);
+            light.add(Layer::Sun, 1.0, Part::discs(vec![disc.clone()]));
+            if hidden {
+                let blind = Part::default().at(Distance::Clouds).with_transmittance(std::sync::Arc::new(Blind));
+                light.add(Layer::Sky, 1.0, blind);
+            }
+            let probe = render(&light, &settings, &Progress::silent()).unwrap();
+            let pixels = probe.pixels.chunks(3).enumerate().map(|(i, rgb)| {
+                let (column, row) = (i % width, i / width);
+                (row, f64::from(rgb[1]) * grid.footprint(column, row).solid_angle)
+            });
+            pixels.fold((0.0, 0.0), |(all, high), (row, energy)| {
+                (all + energy, if row < row_of(40.1) { high + energy } else { high })
+            })
+        };
+        let (whole, half) = (lit(false), lit(true));
+        assert!((half.0 / whole.0 - 0.5).abs() < 0.01, "{width}: {half:?} {whole:?}");
+        if width == 4096 {
+            assert!(whole.1 > 0.1 * whole.0 && half.1 < 0.01 * whole.0, "{half:?} {whole:?}");
+        }
+    }
 }

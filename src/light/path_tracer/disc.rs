@@ -4,11 +4,9 @@
 //! 1 - cos(angle) = (x^2 + y^2) (1 - cos(angular radius)), so uniform in the disc is uniform in solid angle.
 
 use super::sampling::{Random, frame};
+use crate::numerics::GaussLegendre;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// Nodes and weights of a quadrature on [-1, 1].
-pub(super) type Rule = [(f64, f64)];
 
 /// A uniform disc in the sky.
 pub(super) struct Disc {
@@ -47,13 +45,13 @@ impl Disc {
 
     /// Calls `visit(direction, weight)` for the nodes of a quadrature over the part of the disc above the planet's edge, seen
     /// from a point with local vertical `up` at `radius` >= `planet_radius` from the centre; the weights of the whole disc sum to
-    /// 1. The edge counts as straight within the disc. `rows` and `columns` are Gauss-Legendre rules.
+    /// 1. The edge counts as straight within the disc.
     pub fn integrate(
         &self,
         up: DVec3,
         radius: f64,
         planet_radius: f64,
-        (rows, columns): (&Rule, &Rule),
+        (rows, columns): (&GaussLegendre, &GaussLegendre),
         mut visit: impl FnMut(DVec3, f64),
     ) {
         let above_edge = self.centre.dot(up).clamp(-1.0, 1.0).asin() + (planet_radius / radius).min(1.0).acos();
@@ -68,35 +66,14 @@ impl Disc {
         let cut = (-(0.5 * above_edge).sin() / (0.5 * self.angular_radius).sin()).clamp(-1.0, 1.0);
         // y = sin(phi) makes the width of a row smooth at the ends of the disc.
         let lowest = cut.asin();
-        let half_range = 0.5 * (FRAC_PI_2 - lowest);
-        for &(node, weight) in rows {
-            let (y, half_width) = (lowest + half_range * (1.0 + node)).sin_cos();
-            let row = weight * half_range * half_width * half_width / PI;
-            for &(x, column) in columns {
+        for (angle, weight) in rows.on(lowest, FRAC_PI_2) {
+            let (y, half_width) = angle.sin_cos();
+            let row = weight * half_width * half_width / PI;
+            for (x, column) in columns.on(-1.0, 1.0) {
                 visit(self.direction(across, upward, x * half_width, y), row * column);
             }
         }
     }
-}
-
-/// Nodes and weights of the Gauss-Legendre rule with `n` nodes on [-1, 1] (Newton's method on the Legendre polynomial; Abramowitz
-/// & Stegun 25.4.29).
-pub(super) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
-    (0..n)
-        .map(|i| {
-            let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..20 {
-                let (mut before, mut now) = (1.0, x);
-                for k in 2..=n {
-                    (before, now) = (now, ((2 * k - 1) as f64 * x * now - (k - 1) as f64 * before) / k as f64);
-                }
-                slope = n as f64 * (x * now - before) / (x * x - 1.0);
-                x -= now / slope;
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
 }
 
 #[cfg(test)]
@@ -106,7 +83,7 @@ mod tests {
     fn visible_fraction(elevation_deg: f64) -> f64 {
         let (sine, cosine) = elevation_deg.to_radians().sin_cos();
         let disc = Disc::new(DVec3::new(cosine, 0.0, sine), 0.25);
-        let (rows, columns) = (gauss_legendre(12), gauss_legendre(3));
+        let (rows, columns) = (GaussLegendre::new(12), GaussLegendre::new(3));
         let mut sum = 0.0;
         disc.integrate(DVec3::Z, 1.0, 1.0, (&rows, &columns), |direction, weight| {
             assert!(direction.z > -1e-9);
@@ -144,14 +121,5 @@ mod tests {
         let mean = sum / n as f64;
         assert!((mean.dot(centre) - 0.5 * (1.0 + 5.0_f64.to_radians().cos())).abs() < 3e-5);
         assert!(mean.reject_from(centre).length() < 1e-3);
-    }
-
-    #[test]
-    fn gauss_legendre_integrates_polynomials_exactly() {
-        for n in [1, 2, 3, 8, 12] {
-            let degree = 2 * n as i32 - 2;
-            let sum: f64 = gauss_legendre(n).iter().map(|(x, w)| w * x.powi(degree)).sum();
-            assert!((sum - 2.0 / (degree + 1) as f64).abs() < 1e-12, "{n}");
-        }
     }
 }

@@ -7,6 +7,7 @@
 //! The ray is cut where it crosses an altitude of the profile and at its lowest point. Within such a piece beta is linear in z,
 //! and z is all but a parabola in t, for which Simpson's rule is exact (relative error below 1e-6 on the Earth).
 
+use crate::numerics::locate;
 use std::ops::ControlFlow;
 
 /// The start of a ray relative to the planet: all that its passage through the shells depends on.
@@ -86,10 +87,7 @@ impl Shells {
 
     /// The layer that holds `altitude`, and the fraction of the way from its lower to its upper bound.
     pub fn locate(&self, altitude: f64) -> (usize, f64) {
-        let above = self.altitudes.partition_point(|&z| z <= altitude);
-        let layer = above.clamp(1, self.altitudes.len() - 1) - 1;
-        let (low, high) = (self.altitudes[layer], self.altitudes[layer + 1]);
-        (layer, ((altitude - low) / (high - low)).clamp(0.0, 1.0))
+        locate(&self.altitudes, altitude)
     }
 
     /// Where the ray ends, and at which distance [km]; the start is within the atmosphere.

@@ -1,10 +1,10 @@
 //! Light scattered once, by quadrature: along the ray three Gauss points in every piece between the bends of the profile, and over
 //! the part of the Sun's disc that each point sees.
 
-use super::disc::gauss_legendre;
 use super::medium::Medium;
 use super::stokes::{Stokes, basis};
 use super::walk::Scene;
+use crate::numerics::GaussLegendre;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub(super) fn single_scattering(medium: &Medium, scene: &Scene) -> Stokes {
     cuts.extend((1..).map(|i| f64::from(i) * STEP_KM).take_while(|&t| t < end).take(100_000));
     cuts.retain(|t| (0.0..=end).contains(t));
     cuts.sort_by(f64::total_cmp);
-    let (line, rows, columns) = (gauss_legendre(3), gauss_legendre(8), gauss_legendre(3));
+    let [line, rows, columns] = [3, 8, 3].map(GaussLegendre::new);
     let source = |t: f64| {
         let point = scene.start + scene.view * t;
         let place = shells.locate(chord.altitude_at(t));
@@ -37,8 +37,7 @@ pub(super) fn single_scattering(medium: &Medium, scene: &Scene) -> Stokes {
     let pieces: Vec<Stokes> = cuts
         .par_windows(2)
         .map(|cut| {
-            let half = 0.5 * (cut[1] - cut[0]);
-            let points = line.iter().map(|&(node, weight)| source(cut[0] + half * (1.0 + node)).map(|x| weight * half * x));
+            let points = line.on(cut[0], cut[1]).map(|(t, weight)| source(t).map(|x| weight * x));
             points.fold([0.0; 3], plus)
         })
         .collect();

@@ -1,5 +1,6 @@
 use super::*;
 use crate::atmosphere::{AirParameters, Component, Phase};
+use crate::numerics::gauss::legendre;
 
 /// The air of `parameters` at one wavelength.
 pub(super) fn clear_air(parameters: &AirParameters, wavelength_nm: f64) -> OpticalProfile {
@@ -36,14 +37,12 @@ fn view(zenith_deg: f64, azimuth_deg: f64) -> DVec3 {
 
 /// Mean over the hemisphere of `value(direction)` times pi: the flux through a horizontal plane.
 fn flux(upward: bool, value: impl Fn(DVec3) -> f64) -> f64 {
-    let rule = gauss_legendre(6);
     let mut sum = 0.0;
-    for &(node, weight) in &rule {
-        let cosine = 0.5 * (1.0 + node);
+    for (cosine, weight) in legendre(6) {
         let zenith_deg = cosine.acos().to_degrees();
         for azimuth in 0..4 {
             let direction = view(if upward { 180.0 - zenith_deg } else { zenith_deg }, 45.0 * azimuth as f64 + 22.5);
-            sum += 0.5 * weight * cosine * 0.5 * PI * value(direction);
+            sum += weight * cosine * 0.5 * PI * value(direction);
         }
     }
     sum
@@ -101,7 +100,7 @@ fn what_enters_conservative_air_over_a_white_ground_leaves_it() {
 
 /// Chandrasekhar's H function for isotropic scattering, from his nonlinear integral equation by iteration.
 fn chandrasekhar_h(albedo: f64, cosine: f64) -> f64 {
-    let rule: Vec<(f64, f64)> = gauss_legendre(40).iter().map(|&(x, w)| (0.5 * (1.0 + x), 0.5 * w)).collect();
+    let rule = legendre(40);
     let mut values = vec![1.0; rule.len()];
     let next = |mu: f64, values: &[f64]| {
         let sum: f64 = rule.iter().zip(values).map(|(&(x, w), h)| w * h * x / (mu + x)).sum();

@@ -2,7 +2,8 @@
 
 use super::compact::compact;
 use super::lanes::Lanes;
-use crate::light::{Axis, BLOCK};
+use crate::light::BLOCK;
+use crate::numerics::Axis;
 
 /// XYZ of the fields of one block.
 pub(super) type Planes = [[f32; BLOCK]; 3];

@@ -43,7 +43,7 @@ pub(super) fn night_light(
     {
         let weights = moonlight_weights(sky.moon(bodies)?, sky.atmosphere().weights());
         let dome = dome_under(sky, field, &bodies.moon.body, weights, wanted, Vec::new(), progress)?;
-        layers.add(Layer::Sky, scales.of(Layer::Sky), Part { smooth: vec![Box::new(dome)], ..Default::default() });
+        layers.add(Layer::Sky, scales.of(Layer::Sky), Part::smooth(Box::new(dome)));
     }
     Ok(layers)
 }
@@ -58,18 +58,18 @@ fn add_night(sky: &Sky, field: &LightField, scales: &LayerScales, layers: &mut L
     let wanted = |layer: Layer| scales.of(layer) > 0.0;
     if wanted(Layer::Moon) {
         let discs = moon_disc(sky, field, bodies)?.into_iter().collect();
-        layers.add(Layer::Moon, scales.of(Layer::Moon), Part { discs, ..Default::default() });
+        layers.add(Layer::Moon, scales.of(Layer::Moon), Part::discs(discs));
     }
     if wanted(Layer::Planets) {
         let points = planet_points(sky, field, bodies)?;
-        layers.add(Layer::Planets, scales.of(Layer::Planets), Part { points, ..Default::default() });
+        layers.add(Layer::Planets, scales.of(Layer::Planets), Part::points(points));
     }
     if !sky.is_night() {
         return Ok(());
     }
     if wanted(Layer::Stars) {
         let points = star_points(sky, field, bodies, options.star_limit)?;
-        layers.add(Layer::Stars, scales.of(Layer::Stars), Part { points, ..Default::default() });
+        layers.add(Layer::Stars, scales.of(Layer::Stars), Part::points(points));
     }
     add_diffuse(sky, field, bodies, scales, layers)?;
     progress.report("gather", 1.0)
@@ -82,29 +82,28 @@ fn add_diffuse(sky: &Sky, field: &LightField, bodies: &Bodies, scales: &LayerSca
         DiffuseAir::new((field, air.profile(), air.weights()), sky.altitude_km(), sky.horizon())?
     };
     let to_icrs = bodies.observer.to_horizon().transpose();
-    let smooth = |light| Part { smooth: vec![light], ..Default::default() };
     let wanted = |layer: Layer| scales.of(layer) > 0.0;
     if wanted(Layer::MilkyWay) {
         let light = DiffuseSky::above(MilkyWay::new(options.star_limit)?, to_icrs, &air);
-        layers.add(Layer::MilkyWay, scales.of(Layer::MilkyWay), smooth(Box::new(light)));
+        layers.add(Layer::MilkyWay, scales.of(Layer::MilkyWay), Part::smooth(Box::new(light)));
     }
     if wanted(Layer::Zodiacal) {
         let sun = (to_icrs * bodies.sun.direction()).normalize();
         // The corona has the light of the dust near the Sun.
         let inner = sky.eclipsed_sunlight().copied().and_then(eclipse::corona).map_or(0.0, |corona| corona.angular_radius());
         let light = DiffuseSky::above(ZodiacalLight::new(sun).beyond(inner), to_icrs, &air);
-        layers.add(Layer::Zodiacal, scales.of(Layer::Zodiacal), smooth(Box::new(light)));
+        layers.add(Layer::Zodiacal, scales.of(Layer::Zodiacal), Part::smooth(Box::new(light)));
     }
     if wanted(Layer::Airglow) {
         let airglow = Airglow::new(options.solar_flux_sfu, 1.0, sky.elevation_m())?;
         let light = DiffuseSky::round_above(airglow, &air);
-        layers.add(Layer::Airglow, scales.of(Layer::Airglow), smooth(Box::new(light)));
+        layers.add(Layer::Airglow, scales.of(Layer::Airglow), Part::smooth(Box::new(light)));
     }
     if let Some(towns) = options.light_pollution()?
         && wanted(Layer::LightPollution)
     {
         let light = DiffuseSky::round_within(towns, &air);
-        layers.add(Layer::LightPollution, scales.of(Layer::LightPollution), smooth(Box::new(light)));
+        layers.add(Layer::LightPollution, scales.of(Layer::LightPollution), Part::smooth(Box::new(light)));
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::atmosphere::{Component, Phase};
-use crate::light::gauss;
+use crate::numerics::gauss;
 use crate::progress::Progress;
 use crate::quality::Quality;
 use crate::spectrum::{solar, wavelengths};

@@ -1,4 +1,4 @@
-//! Cubic splines over wavelength: radiances at a few nodes become a curve, and integrals of that curve become weights.
+//! Cubic splines: values at a few nodes become a curve, and integrals of that curve become weights.
 //!
 //! Not-a-knot end conditions, so that four nodes or more reproduce a cubic polynomial; three nodes give a parabola, two a line,
 //! one a constant. Outside the nodes the curve keeps its end value. Source: de Boor, A Practical Guide to Splines, chapter IV.
