@@ -44,6 +44,13 @@ def test_air_pickles_with_its_light(air: sp.Atmosphere) -> None:
     numpy.testing.assert_allclose(light(pickle.loads(pickle.dumps(profile_air()))), light(profile_air()), rtol=1e-9)
 
 
+def test_copies_of_an_air_share_its_light_and_keep_it_scalar() -> None:
+    air = sp.Atmosphere(quality="draft", polarisation=False, cache=False)
+    assert copy.copy(air) is air and copy.deepcopy({"air": air})["air"] is air
+    assert "polarisation=False" in repr(air) and repr(pickle.loads(pickle.dumps(air))) == repr(air)
+    assert repr(eval(repr(air), {"Atmosphere": sp.Atmosphere})) == repr(air)
+
+
 def test_kept_light_is_found_by_what_was_pickled(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SKYPROBE_CACHE", "on")
     monkeypatch.setenv("SKYPROBE_CACHE_DIR", str(tmp_path))

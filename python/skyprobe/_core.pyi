@@ -306,6 +306,12 @@ class Atmosphere:
     def wavelengths_nm(self) -> NDArray[numpy.float64]:
         """Wavelengths of the optical profile, shape (W,). [nm]"""
 
+    def __copy__(self) -> Atmosphere:
+        """The air itself, which cannot be changed, with its solved light."""
+
+    def __deepcopy__(self, _memo: object, /) -> Atmosphere:
+        """The air itself, which cannot be changed, with its solved light."""
+
 @disjoint_base
 class Body:
     """A body as it stands in the sky."""

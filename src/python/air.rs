@@ -253,14 +253,25 @@ impl Atmosphere {
         pickle::call(slf.get_type().as_any(), (), &keys)
     }
 
+    /// The air itself, which cannot be changed, with its solved light.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// The air itself, which cannot be changed, with its solved light.
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         let quality = name_of(&self.inner.quality());
+        let scalar = if self.inner.is_polarised() { "" } else { ", polarisation=False" };
         let Some(parameters) = self.inner.parameters() else {
             let profile = self.inner.profile();
             let (altitudes, wavelengths) = (profile.altitudes_km.len(), profile.wavelengths_nm.len());
             let components = profile.components.len();
             return format!(
-                "<Atmosphere: a profile of {altitudes} altitudes, {wavelengths} wavelengths and {components} components; quality {quality}>"
+                "<Atmosphere: a profile of {altitudes} altitudes, {wavelengths} wavelengths and {components} components; quality {quality}{scalar}>"
             );
         };
         let given = serde_json::to_value(parameters).unwrap_or_default();
@@ -270,7 +281,7 @@ impl Atmosphere {
         });
         let chosen = self.inner.chosen_wavelengths();
         let chosen = chosen.map_or_else(String::new, |chosen| format!(", wavelengths_nm=<{} wavelengths>", chosen.len()));
-        format!("Atmosphere({}, quality='{quality}'{chosen})", words.collect::<Vec<_>>().join(", "))
+        format!("Atmosphere({}, quality='{quality}'{scalar}{chosen})", words.collect::<Vec<_>>().join(", "))
     }
 }
 

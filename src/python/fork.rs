@@ -2,6 +2,9 @@
 //!
 //! A fork copies the memory and one thread. Rayon's threads are not in the child, and what waits for them waits for ever: so the child works with a pool of its own. What another
 //! thread of the parent held locked at that moment stays locked in the child: a child of a parent that was at work says so at once instead of waiting.
+//!
+//! So all that computes ([`super::work`]), uses a table made at first use, or makes files (which locks the list of unfinished ones) asks here first. `Component`, `Phase`, `Night`,
+//! `PolarisingFilter`, `Adaptation`, coordinates as text and the getters of results do not: they take numbers and words, without threads, tables or locks that work holds.
 
 use crate::error::Result;
 use pyo3::exceptions::PyRuntimeError;
@@ -45,7 +48,8 @@ impl AtWork {
     }
 }
 
-/// Refuses short work with the interpreter held in a child that would wait for ever: tables that are made at first use may be half made in it.
+/// Refuses short work with the interpreter held in a child that would wait for ever: tables that are made at first use may be half made in it, and what guards files may be
+/// locked.
 ///
 /// # Errors
 /// As [`AtWork::begin`].

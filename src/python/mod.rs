@@ -12,6 +12,7 @@ mod filter;
 mod fork;
 mod night;
 mod pickle;
+mod place_results;
 mod places;
 mod post;
 mod probe;
@@ -53,11 +54,11 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<results::SunEvents>()?;
     module.add_class::<results::Irradiance>()?;
     module.add_class::<results::Illuminance>()?;
-    module.add_class::<places::Place>()?;
-    module.add_class::<places::NearestPlace>()?;
-    module.add_class::<places::Location>()?;
-    module.add_class::<places::CivilTime>()?;
-    module.add_class::<places::TimeFields>()?;
+    module.add_class::<place_results::Place>()?;
+    module.add_class::<place_results::NearestPlace>()?;
+    module.add_class::<place_results::Location>()?;
+    module.add_class::<place_results::CivilTime>()?;
+    module.add_class::<place_results::TimeFields>()?;
     module.add_function(wrap_pyfunction!(places::search_places, module)?)?;
     module.add_function(wrap_pyfunction!(places::suggest_places, module)?)?;
     module.add_function(wrap_pyfunction!(places::nearest_place, module)?)?;
@@ -93,6 +94,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
 ///     however they are spelt (relative, through links, in another case where the system does not tell cases apart).
 #[pyfunction]
 fn check_files(inputs: Vec<PathBuf>, outputs: Vec<PathBuf>) -> PyResult<()> {
+    fork::check()?;
     let inputs: Vec<(&str, &Path)> = inputs.iter().map(|path| ("input", path.as_path())).collect();
     let outputs: Vec<(&str, &Path)> = outputs.iter().map(|path| ("output", path.as_path())).collect();
     crate::io::check_files(&inputs, &outputs)?;

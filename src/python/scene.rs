@@ -52,23 +52,27 @@ impl Scene {
     #[new]
     #[pyo3(signature = (**keys))]
     fn new(keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        fork::check()?;
         Self::of_map(keys.map_or(Ok(Map::new()), values::table)?)
     }
 
     /// The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from.
     #[classmethod]
     fn load(_class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        fork::check()?;
         Ok(Self { inner: scene::Scene::read(&path)? })
     }
 
     /// The scene of a JSON text.
     #[classmethod]
     fn from_json(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
+        fork::check()?;
         Ok(Self { inner: scene::Scene::from_json(text)? })
     }
 
     /// Write the scene as JSON, every value written out; the file appears whole or not at all.
     fn save(&self, path: PathBuf) -> PyResult<()> {
+        fork::check()?;
         let text = self.inner.to_json() + "\n";
         let failed = |error| crate::Error::file(&path, error);
         Ok(write_atomically(&path, &Progress::silent(), |file| file.write_all(text.as_bytes()).map_err(failed))?)
@@ -89,6 +93,7 @@ impl Scene {
     /// >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
     #[pyo3(signature = (**keys))]
     fn replace(&self, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        fork::check()?;
         let Value::Object(mut map) = self.inner.to_value() else { return Err(InputError::new_err("scene: no table")) };
         for (key, value) in keys.map_or(Ok(Map::new()), values::table)? {
             match (map.get_mut(&key), value) {
@@ -180,6 +185,7 @@ impl Scene {
         atmosphere: Option<Bound<'_, Atmosphere>>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
+        fork::check()?;
         let paths = paths.unwrap_or_else(|| self.inner.output.clone());
         if paths.is_empty() {
             return Err(InputError::new_err("paths = []: must be names of files, where the scene has no output"));

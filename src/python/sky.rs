@@ -518,6 +518,7 @@ impl Sky {
         operator: &str,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
+        fork::check()?;
         let light = self.light_options(polarising_filter, tolerance, layers)?;
         let settings = probe_settings(
             width,
