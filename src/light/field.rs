@@ -1,5 +1,9 @@
 //! The light field of one air, for any Sun, observer and direction.
 
+mod segments;
+
+pub use segments::Segments;
+
 use super::air::Air;
 use super::angular::{AngularFunctions, Once};
 use super::balance;
@@ -198,11 +202,7 @@ impl LightField {
         let mut parts = vec![splat::<LANES>(0.0); azimuths.len() * stride];
         for (b, block) in self.blocks.iter().enumerate() {
             parts.fill(splat(0.0));
-            let ray = Ray::trace(&block.air, &self.grid.shells, observer.altitude_km, mu, self.limits);
-            let fine = (observer.sun_zenith.cos() < LOW_SUN).then(|| {
-                let limits = StepLimits { length_km: self.limits.length_km / FINER as f64, ..self.limits };
-                Ray::trace(&block.air, &self.grid.fine_shells, observer.altitude_km, mu, limits)
-            });
+            let (ray, fine) = self.rays(block, observer, mu);
             gather_block(&self.grid, block, [&ray, fine.as_ref().unwrap_or(&ray)], observer.sun_zenith, azimuths, &mut parts);
             let first = b * LANES;
             let count = LANES.min(self.wavelengths - first);
@@ -212,6 +212,16 @@ impl LightField {
             }
         }
         out
+    }
+
+    /// The ray that is marched for one block, and the finer one for light scattered once if the Sun is low.
+    fn rays(&self, block: &Block, observer: &Observer, mu: f64) -> (Ray<LANES>, Option<Ray<LANES>>) {
+        let ray = Ray::trace(&block.air, &self.grid.shells, observer.altitude_km, mu, self.limits);
+        let fine = (observer.sun_zenith.cos() < LOW_SUN).then(|| {
+            let limits = StepLimits { length_km: self.limits.length_km / FINER as f64, ..self.limits };
+            Ray::trace(&block.air, &self.grid.fine_shells, observer.altitude_km, mu, limits)
+        });
+        (ray, fine)
     }
 
     /// Radiance per unit solar irradiance [sr-1] of gathered light at azimuth index `azimuth` and wavelength index `wavelength`;
