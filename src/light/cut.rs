@@ -30,7 +30,7 @@ pub fn cuts<const N: usize>(air: &Air<N>, ray: &Ray<N>, distances: &[f64]) -> Ve
             whole += 2;
             step = Step::at(air, ray, whole);
         }
-        match step.filter(|step| step.begin < distance) {
+        match step.filter(|step| distance - step.begin > 1e-12 * step.length) {
             None => Cut { whole, rest: None, transmittance: exp_minus(&tau) },
             Some(step) => {
                 let part = (distance - step.begin) / step.length;

@@ -10,9 +10,9 @@ use super::balance;
 use super::contracted::Contracted;
 use super::grid::{FINER, Grid};
 use super::harmonics::Orders;
-use super::lanes::{LANES, Lanes, add_scaled, processor_fuses, splat};
+use super::lanes::{LANES, Lanes, processor_fuses, splat};
 use super::ray::{Ray, StepLimits};
-use super::single::{PARTS, add_strengths_and_paths, direct_ground_irradiance};
+use super::single::{PARTS, add_strengths_and_paths};
 use super::solve::{Block, solve};
 use super::source::{MAX_ORDER, Relative, Shape};
 use super::sunlight::Sunlight;
@@ -202,7 +202,11 @@ impl LightField {
         let mut parts = vec![splat::<LANES>(0.0); azimuths.len() * stride];
         for (b, block) in self.blocks.iter().enumerate() {
             parts.fill(splat(0.0));
-            let (ray, fine) = self.rays(block, observer, mu);
+            let ray = Ray::trace(&block.air, &self.grid.shells, observer.altitude_km, mu, self.limits);
+            let fine = (observer.sun_zenith.cos() < LOW_SUN).then(|| {
+                let limits = StepLimits { length_km: self.limits.length_km / FINER as f64, ..self.limits };
+                Ray::trace(&block.air, &self.grid.fine_shells, observer.altitude_km, mu, limits)
+            });
             gather_block(&self.grid, block, [&ray, fine.as_ref().unwrap_or(&ray)], observer.sun_zenith, azimuths, &mut parts);
             let first = b * LANES;
             let count = LANES.min(self.wavelengths - first);
@@ -212,16 +216,6 @@ impl LightField {
             }
         }
         out
-    }
-
-    /// The ray that is marched for one block, and the finer one for light scattered once if the Sun is low.
-    fn rays(&self, block: &Block, observer: &Observer, mu: f64) -> (Ray<LANES>, Option<Ray<LANES>>) {
-        let ray = Ray::trace(&block.air, &self.grid.shells, observer.altitude_km, mu, self.limits);
-        let fine = (observer.sun_zenith.cos() < LOW_SUN).then(|| {
-            let limits = StepLimits { length_km: self.limits.length_km / FINER as f64, ..self.limits };
-            Ray::trace(&block.air, &self.grid.fine_shells, observer.altitude_km, mu, limits)
-        });
-        (ray, fine)
     }
 
     /// Radiance per unit solar irradiance [sr-1] of gathered light at azimuth index `azimuth` and wavelength index `wavelength`;
@@ -261,11 +255,7 @@ impl LightField {
 
     /// Irradiance of the ground by Sun and sky together per unit solar irradiance, by wavelength.
     pub fn ground_irradiance(&self, sun_zenith: f64) -> Vec<f64> {
-        let light = self.blocks.iter().flat_map(|block| {
-            let mut sum = direct_ground_irradiance(&block.air, &block.sunlight, sun_zenith.cos());
-            add_scaled(&mut sum, 1.0, &block.field.ground_irradiance(&self.grid, sun_zenith.cos()));
-            sum
-        });
+        let light = self.blocks.iter().flat_map(|block| block.ground_irradiance(&self.grid, sun_zenith.cos()));
         light.take(self.wavelengths).map(f64::from).collect()
     }
 
@@ -328,9 +318,7 @@ fn gather_block(
     }
     if let Some((distance, transmittance)) = &ray.ground {
         for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(paths + stokes)) {
-            let cosine = on_ray.zenith_cosine(*distance, air.radius);
-            let mut irradiance = direct_ground_irradiance(air, sunlight, cosine);
-            add_scaled(&mut irradiance, 1.0, &field.ground_irradiance(grid, cosine));
+            let irradiance = block.ground_irradiance(grid, on_ray.zenith_cosine(*distance, air.radius));
             for n in 0..LANES {
                 part[paths][n] += transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
             }

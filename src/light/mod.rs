@@ -7,8 +7,8 @@
 //! [`LightField::segments`] does so up to given distances (`cut`).
 //! A change of time, place or height needs gathers only.
 //!
-//! Bottom up: `lanes` (blocks of wavelengths), `zenith_axis`, `harmonics` (mathematics, with [`crate::numerics`]), `air` (one block of a profile), `bends`, `ray`
-//! (steps through the shells), `cut`, `stokes`, `suns`, `sunlight`, `single`, `grid`, `source`, `contracted`, `anderson`, `iterate`, `solve`, `angular`, `field`.
+//! Bottom up: `lanes` (blocks of wavelengths), `zenith_axis`, `harmonics` (mathematics, with [`crate::numerics`]), `air` (one block of a profile), `bends`, `chord`, `ray`
+//! (steps through the shells), `cut`, `depths`, `stokes`, `suns`, `sunlight`, `single`, `grid`, `source`, `contracted`, `anderson`, `iterate`, `solve`, `angular`, `field`.
 //! [`PathTracer`] judges them all: slow, simple, unbiased. [`Thesis`] is the estimator of the original thesis.
 //!
 //! Light is polarised, or a scalar on request. Molecules scatter by the exact matrix; particles and the ground take I alone and send out unpolarised light.
@@ -21,8 +21,10 @@ mod anderson;
 mod angular;
 mod balance;
 mod bends;
+mod chord;
 mod contracted;
 mod cut;
+mod depths;
 mod field;
 mod grid;
 mod harmonics;

@@ -6,7 +6,7 @@
 
 use super::Guide;
 use crate::light::path_tracer::sampling::Random;
-use crate::light::path_tracer::shells::Chord;
+use crate::light::chord::Chord;
 use std::f64::consts::PI;
 
 /// Share of flights that follow the collisions.
