@@ -1,7 +1,9 @@
 //! The light field of one air, for any Sun, observer and direction.
 
+mod incident;
 mod segments;
 
+pub use incident::Incident;
 pub use segments::Segments;
 
 use super::air::Air;

@@ -4,7 +4,7 @@
 //! needs two numbers, its altitude and its solar zenith angle. [`LightField::solve`] finds the light scattered any number of times on
 //! a grid of these two, as moments of the radiance over direction (`solve`, `source`). [`LightField::gather`] marches a view ray, adds what the Sun's direct
 //! light scatters once (`single`, `sunlight`: exact) and what the solved light scatters into the ray, and the lit ground at its end;
-//! [`LightField::segments`] does so up to given distances (`cut`).
+//! [`LightField::segments`] does so up to given distances (`cut`, `depths`). [`LightField::incident`] is the light that falls on a point of the air.
 //! A change of time, place or height needs gathers only.
 //!
 //! Bottom up: `lanes` (blocks of wavelengths), `zenith_axis`, `harmonics` (mathematics, with [`crate::numerics`]), `air` (one block of a profile), `bends`, `chord`, `ray`
@@ -42,7 +42,7 @@ pub mod thesis;
 mod zenith_axis;
 
 pub use angular::{AngularFunctions, BLOCK, FunctionRows, Located, Once};
-pub use field::{Gathered, LightField, Observer, Segments};
+pub use field::{Gathered, Incident, LightField, Observer, Segments};
 pub use path_tracer::{Estimate, Guiding, PathTracer};
 pub use stokes::transverse;
 pub use thesis::{Thesis, ThesisOptions};

@@ -103,8 +103,7 @@ impl LightField {
         work.passing.clear();
         let limits = StepLimits { length_km: self.limits.length_km / FINER as f64, ..self.limits };
         for (b, block) in self.blocks.iter().enumerate() {
-            let shells = if std::env::var("SHELLS").is_ok_and(|v| v == "fine") { &self.grid.fine_shells } else { block.air.levels() };
-            let ray = Ray::trace(&block.air, shells, observer.altitude_km, mu, limits);
+            let ray = Ray::trace(&block.air, block.air.levels(), observer.altitude_km, mu, limits);
             let marched = Marched {
                 parts: &mut work.parts[b * per_block..(b + 1) * per_block],
                 ground: &mut work.ground[b * azimuths.len()..(b + 1) * azimuths.len()],
