@@ -975,7 +975,7 @@ class Sky:
         observer, two arrays of shape (N, D, W). [1, W m-2 sr-1 nm-1]
 
         A surface of radiance L at a distance is seen as L times the transmittance plus the radiance: this is aerial perspective. A line of sight ends on the ground or in space, and
-        distances beyond find what its end has; the light of the ground is not in it. Light that haze or fog scatters into its narrow forward peak counts as transmitted.
+        distances beyond find what its end has; the light of the ground is not in it. The transmittance is that of light that is neither scattered nor absorbed: what haze turns into the line of sight from beside it is in the radiance, with the clear sky's light around the line.
 
         The radiance is of sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
         ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.

@@ -107,7 +107,7 @@ impl Sky {
     /// The light of parts of the lines of sight along unit vectors `directions` (east, north, up): from the observer to each of `distances_m` (0 to infinity, in any order), at `wavelengths_nm`. A
     /// line ends on the ground or in space. With a surface of radiance L at a distance, what is seen is L x transmittance + in-scattered radiance.
     ///
-    /// Light scattered into the narrow forward peak of haze or fog counts as transmitted. The in-scattered light is sunlight alone. [`Self::has_more_than_sunlight`] tells whether this sky has other light.
+    /// The transmittance is that of light that is neither scattered nor absorbed; what haze turns into a line of sight is in-scattered light, with the light that this sky has along the line. It is sunlight alone. [`Self::has_more_than_sunlight`] tells whether this sky has other light.
     ///
     /// # Errors
     /// As [`Self::spectral_radiance`]; [`Error::Input`] for distances that are negative or no numbers.
