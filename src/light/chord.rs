@@ -63,12 +63,7 @@ impl Piece {
 }
 
 /// Visits the pieces of the ray between `altitudes` [km] (ascending from the ground, the start among them) in order, up to the distance `limit` [km] or the end of the ray.
-pub fn walk<B>(
-    altitudes: &[f64],
-    chord: &Chord,
-    limit: f64,
-    mut visit: impl FnMut(Piece) -> ControlFlow<B>,
-) -> ControlFlow<B> {
+pub fn walk<B>(altitudes: &[f64], chord: &Chord, limit: f64, mut visit: impl FnMut(Piece) -> ControlFlow<B>) -> ControlFlow<B> {
     let (mut layer, fraction) = locate(altitudes, chord.altitude);
     let (mut t, mut altitude) = (0.0, chord.altitude);
     let mut step = |layer: usize, t: &mut f64, altitude: &mut f64, to: f64, altitude_to: f64| {

@@ -372,8 +372,7 @@ impl Sky {
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), distances_m.len(), wavelengths_nm.len()];
         self.warn_of_the_night(py, "segment")?;
-        let light =
-            work::run(py, progress, |progress| self.inner.segment(&directions, &distances_m, &wavelengths_nm, progress))?;
+        let light = work::run(py, progress, |progress| self.inner.segment(&directions, &distances_m, &wavelengths_nm, progress))?;
         let array = |values| PyArray1::from_vec(py, values).reshape(shape);
         Ok((array(light.transmittance)?, array(light.in_scattered_radiance)?))
     }

@@ -120,7 +120,9 @@ impl Sky {
     ) -> Result<SegmentLight> {
         self.atmosphere().check_wavelengths(wavelengths_nm)?;
         check_directions(directions)?;
-        if let Some((index, distance)) = distances_m.iter().enumerate().find(|(_, distance)| distance.is_nan() || **distance < 0.0) {
+        if let Some((index, distance)) =
+            distances_m.iter().enumerate().find(|(_, distance)| distance.is_nan() || **distance < 0.0)
+        {
             return Err(Error::input(format!("distances_m[{index}]"), distance, "0 m or more, or infinity"));
         }
         let mut order: Vec<usize> = (0..distances_m.len()).collect();

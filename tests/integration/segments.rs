@@ -47,7 +47,9 @@ fn parts_of_rays_agree_with_the_path_tracer() {
     let field = LightField::solve(&profile, &Quality::High.numbers(), false, &Progress::silent()).unwrap();
     let mut segments = Segments::default();
     let mut deviations = Vec::new();
-    println!("altitude km, Sun, view, azimuth, distance km, transmittance, solver, path tracer, standard error %, deviation in % and in standard errors");
+    println!(
+        "altitude km, Sun, view, azimuth, distance km, transmittance, solver, path tracer, standard error %, deviation in % and in standard errors"
+    );
     for (i, &(altitude_km, sun_zenith_deg, zenith, azimuth)) in RAYS.iter().enumerate() {
         let (sine, cosine) = f64::to_radians(zenith).sin_cos();
         let view = DVec3::new(sine * azimuth.to_radians().cos(), sine * azimuth.to_radians().sin(), cosine);

@@ -15,8 +15,8 @@
 //! the ray the light is nevertheless that of pictures: what they have more, less than their own error, comes in the last tenth of the ray, most of which lies above the air that scatters.
 
 use super::super::angular::{AngularFunctions, Once};
-use super::super::contracted::Contracted;
 use super::super::chord::Chord;
+use super::super::contracted::Contracted;
 use super::super::cut::cuts;
 use super::super::depths::{Depths, depths};
 use super::super::grid::{FINER, Grid};
@@ -112,7 +112,8 @@ impl LightField {
             march_block(&self.grid, block, &ray, observer.sun_zenith, (azimuths, &work.distances), marched);
         }
         out.transmittance.clear();
-        let of = |d: usize, w: usize| (-work.passing[w / LANES * (distances_km.len() + 1) + d].depths.extinction[w % LANES]).exp();
+        let of =
+            |d: usize, w: usize| (-work.passing[w / LANES * (distances_km.len() + 1) + d].depths.extinction[w % LANES]).exp();
         out.transmittance.extend((0..out.distances).flat_map(|d| (0..self.wavelengths).map(move |w| of(d, w))));
         self.radiance_of_parts(observer, mu, azimuths, out);
     }

@@ -4,11 +4,11 @@
 //! turned about the Sun (so that two small turns into the aureole leave no rare, heavy path), and of the guide; the next distance
 //! from the guide, or else from the collisions. Weights are the physical density over that of the mixture.
 
+use super::super::chord::Chord;
 use super::disc::Disc;
 use super::guide::{Ending, Flight, Guide, Lobes, Sunshine};
 use super::medium::{Medium, Place};
 use super::sampling::{Random, around, lambertian};
-use super::super::chord::Chord;
 use super::shells::End;
 use super::stokes::{Basis, Mueller, Stokes, basis};
 use glam::DVec3;
