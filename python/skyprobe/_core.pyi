@@ -968,6 +968,30 @@ class Sky:
             Called with stage and fraction; returning False raises Cancelled.
         """
 
+    def segment(
+        self, directions: ArrayLike, distances_m: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
+    ) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """Light of parts of the lines of sight: the transmittance from the observer to distances, and the radiance of the sunlight that the air before them scatters to the
+        observer, two arrays of shape (N, D, W). [1, W m-2 sr-1 nm-1]
+
+        A surface of radiance L at a distance is seen as L times the transmittance plus the radiance: this is aerial perspective. A line of sight ends on the ground or in space, and
+        distances beyond find what its end has; the light of the ground is not in it. The transmittance is that of light that is neither scattered nor absorbed: what haze turns into the line of sight from beside it is in the radiance, with the clear sky's light around the line.
+
+        The radiance is of sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+
+        Parameters
+        ----------
+        directions
+            Unit vectors (east, north, up) that one looks along, shape (N, 3).
+        distances_m
+            From the observer along the line of sight, 0 to infinity, in any order, shape (D,) or a number. [m]
+        wavelengths_nm
+            Shape (W,), within the atmosphere's wavelengths. [nm]
+        progress
+            Called with stage and fraction; returning False raises Cancelled.
+        """
+
     def irradiance(self, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None) -> Irradiance:
         """Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
 

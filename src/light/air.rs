@@ -129,6 +129,11 @@ impl<const N: usize> Air<N> {
         self.altitudes.nodes()
     }
 
+    /// The same, as an axis.
+    pub fn levels(&self) -> &Axis {
+        &self.altitudes
+    }
+
     /// The components that scatter.
     pub fn scatterers(&self) -> &[Scatterer<N>] {
         &self.scatterers
@@ -144,6 +149,19 @@ impl<const N: usize> Air<N> {
     #[inline(always)]
     pub fn extinction(&self, (interval, fraction): (usize, f32)) -> Lanes<N> {
         lerp(&self.extinction[interval], &self.extinction[interval + 1], fraction)
+    }
+
+    /// Coefficient of scattering into forward peaks [km-1], which [`Self::extinction`] leaves out.
+    #[inline(always)]
+    pub fn forward_scattering(&self, place: (usize, f32)) -> Lanes<N> {
+        let mut sum = splat(0.0);
+        for scatterer in &self.scatterers {
+            let coefficient = scatterer.coefficient(place);
+            for n in 0..N {
+                sum[n] += coefficient[n] * scatterer.forward[n] / (1.0 - scatterer.forward[n]);
+            }
+        }
+        sum
     }
 }
 

@@ -100,6 +100,14 @@ impl AngularFunctions {
         }
     }
 
+    /// How many of the first functions are those of the forward peak, whose weights are those of light that came straight from the Sun.
+    pub fn peak_len(&self) -> usize {
+        match self {
+            Self::Molecules(_) => 0,
+            Self::Table(table) => table.peak,
+        }
+    }
+
     /// Writes the functions at scattering angles, given as haversines (1 - cos) / 2: function f of angle i to `out[f][i]`.
     #[inline(always)]
     pub fn values<const M: usize>(&self, haversines: &[f32], out: &mut [[f32; M]]) {

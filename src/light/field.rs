@@ -1,14 +1,20 @@
 //! The light field of one air, for any Sun, observer and direction.
 
+mod incident;
+mod segments;
+
+pub use incident::Incident;
+pub use segments::Segments;
+
 use super::air::Air;
 use super::angular::{AngularFunctions, Once};
 use super::balance;
 use super::contracted::Contracted;
 use super::grid::{FINER, Grid};
 use super::harmonics::Orders;
-use super::lanes::{LANES, Lanes, add_scaled, processor_fuses, splat};
+use super::lanes::{LANES, Lanes, processor_fuses, splat};
 use super::ray::{Ray, StepLimits};
-use super::single::{PARTS, add_strengths_and_paths, direct_ground_irradiance};
+use super::single::{PARTS, add_strengths_and_paths};
 use super::solve::{Block, solve};
 use super::source::{MAX_ORDER, Relative, Shape};
 use super::sunlight::Sunlight;
@@ -251,11 +257,7 @@ impl LightField {
 
     /// Irradiance of the ground by Sun and sky together per unit solar irradiance, by wavelength.
     pub fn ground_irradiance(&self, sun_zenith: f64) -> Vec<f64> {
-        let light = self.blocks.iter().flat_map(|block| {
-            let mut sum = direct_ground_irradiance(&block.air, &block.sunlight, sun_zenith.cos());
-            add_scaled(&mut sum, 1.0, &block.field.ground_irradiance(&self.grid, sun_zenith.cos()));
-            sum
-        });
+        let light = self.blocks.iter().flat_map(|block| block.ground_irradiance(&self.grid, sun_zenith.cos()));
         light.take(self.wavelengths).map(f64::from).collect()
     }
 
@@ -318,9 +320,7 @@ fn gather_block(
     }
     if let Some((distance, transmittance)) = &ray.ground {
         for (on_ray, part) in on_rays.iter().zip(parts.chunks_exact_mut(paths + stokes)) {
-            let cosine = on_ray.zenith_cosine(*distance, air.radius);
-            let mut irradiance = direct_ground_irradiance(air, sunlight, cosine);
-            add_scaled(&mut irradiance, 1.0, &field.ground_irradiance(grid, cosine));
+            let irradiance = block.ground_irradiance(grid, on_ray.zenith_cosine(*distance, air.radius));
             for n in 0..LANES {
                 part[paths][n] += transmittance[n] * irradiance[n] * air.albedo[n] * (1.0 / PI) as f32;
             }

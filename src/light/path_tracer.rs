@@ -83,6 +83,7 @@ pub struct PathTracer<'a> {
     medium: Medium<'a>,
     sun_angular_radius_deg: f64,
     guiding: Guiding,
+    length_km: Option<f64>,
     guide: OnceLock<Guide>,
     progress: Progress<'a>,
 }
@@ -97,6 +98,7 @@ impl<'a> PathTracer<'a> {
             medium: Medium::new(profile, wavelength_index)?,
             sun_angular_radius_deg: profile.sun_angular_radius_deg,
             guiding: Guiding::Automatic,
+            length_km: None,
             guide: OnceLock::new(),
             progress: Progress::silent(),
         })
@@ -111,6 +113,12 @@ impl<'a> PathTracer<'a> {
     /// Chooses when paths are guided. The expectation is the same, the noise is not.
     pub fn with_guiding(mut self, guiding: Guiding) -> Self {
         self.guiding = guiding;
+        self
+    }
+
+    /// Only light that the air on the first `length_km` of the line of sight sends to the observer, whose last scattering is there; the ground is not seen, but lights the air.
+    pub fn with_length_km(mut self, length_km: f64) -> Self {
+        self.length_km = Some(length_km);
         self
     }
 
@@ -243,14 +251,18 @@ impl<'a> PathTracer<'a> {
         let shells = &self.medium.shells;
         let (sine, cosine) = sun_zenith_deg.to_radians().sin_cos();
         let mut start = DVec3::Z * (shells.planet_radius + observer_altitude_km);
+        let mut length = self.length_km;
         if observer_altitude_km > shells.top() {
             match self.medium.chord(start, view).crossings(shells.top()) {
-                Some((way_in, _)) if way_in > 0.0 => start += view * way_in,
+                Some((way_in, _)) if way_in > 0.0 => {
+                    start += view * way_in;
+                    length = length.map(|length| (length - way_in).max(0.0));
+                }
                 _ => return Ok(None),
             }
         }
         let sun = Disc::new(DVec3::new(sine, 0.0, cosine), self.sun_angular_radius_deg);
-        Ok(Some(Scene { start, view, sun }))
+        Ok(Some(Scene { start, view, sun, length }))
     }
 }
 

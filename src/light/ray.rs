@@ -61,7 +61,7 @@ pub struct Ray<const N: usize> {
 }
 
 /// Two-point Gauss-Legendre abscissas on 0..1; the weights are equal.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+pub const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// Below this transmittance in every lane a ray is not followed further.
 const DARK: f32 = 1e-6;

@@ -5,7 +5,7 @@
 
 use super::air::Air;
 use super::lanes::{Lanes, add_product, add_scaled, exp_one, splat};
-use super::ray::Ray;
+use super::ray::{Ray, RayPoint};
 use super::sunlight::Sunlight;
 use super::suns::SunOnRay;
 use std::f64::consts::PI;
@@ -41,52 +41,85 @@ pub fn add_strengths<const N: usize>(
 /// Parts of the light that a component scatters once.
 pub const PARTS: usize = 3;
 
+/// What a view ray has passed on its way to a point: its part in [`add_once`].
+pub struct Passed<const N: usize> {
+    /// Scattering optical depth by component, with the forward peak.
+    depths: Vec<Lanes<N>>,
+    /// Optical depth of scattering into forward peaks.
+    forward: Lanes<N>,
+}
+
+impl<const N: usize> Passed<N> {
+    /// At the start of a ray through `air`.
+    pub fn nothing(air: &Air<N>) -> Self {
+        Self { depths: vec![splat(0.0); air.scatterers().len()], forward: splat(0.0) }
+    }
+
+    /// Becomes what `other` is, which is of the same air.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.depths.copy_from_slice(&other.depths);
+        self.forward = other.forward;
+    }
+}
+
 /// For one position of the Sun and each component adds three parts: the strength of scattering without the forward peak; the strength of all scattering in the light that comes straight
 /// from the Sun (`direct`: its transmittance) and straight to the observer; and the latter times the path, the scattering optical depth, by the same component, that the light passes on
 /// its way to the point and from there.
 #[inline(always)]
 pub fn add_strengths_and_paths<const N: usize>(
     air: &Air<N>,
-    (sunlight, direct): (&Sunlight<N>, Option<&Sunlight<N>>),
+    lights: (&Sunlight<N>, Option<&Sunlight<N>>),
     ray: &Ray<N>,
     sun: &SunOnRay,
     parts: &mut [Lanes<N>],
 ) {
-    let mut passed = vec![splat::<N>(0.0); air.scatterers().len()];
-    let mut forward_depth = splat::<N>(0.0);
+    let mut passed = Passed::nothing(air);
     for point in &ray.points {
-        let cosine = sun.zenith_cosine(point.distance, point.radius);
-        let sunlit = sunlight.over_disc(point.altitude, cosine);
-        let straight = direct.and_then(|direct| direct.over_disc(point.altitude, cosine));
-        let mass = slant(cosine) as f32;
-        let mut passing = splat::<N>(0.0);
-        for ((scatterer, passed), part) in air.scatterers().iter().zip(&mut passed).zip(parts.chunks_exact_mut(PARTS)) {
-            let coefficient = scatterer.coefficient(point.place);
-            if let Some(light) = &sunlit {
-                for n in 0..N {
-                    part[0][n] += light[n] * point.weight[n] * coefficient[n] * (0.25 / PI) as f32;
-                }
-            }
-            let mut whole = coefficient;
+        add_once(air, lights, point, sun, &mut passed, parts);
+    }
+}
+
+/// Adds what one point of a ray has of these parts, and the point to what was passed.
+#[inline(always)]
+pub fn add_once<const N: usize>(
+    air: &Air<N>,
+    (sunlight, direct): (&Sunlight<N>, Option<&Sunlight<N>>),
+    point: &RayPoint<N>,
+    sun: &SunOnRay,
+    passed: &mut Passed<N>,
+    parts: &mut [Lanes<N>],
+) {
+    let cosine = sun.zenith_cosine(point.distance, point.radius);
+    let sunlit = sunlight.over_disc(point.altitude, cosine);
+    let straight = direct.and_then(|direct| direct.over_disc(point.altitude, cosine));
+    let mass = slant(cosine) as f32;
+    let mut passing = splat::<N>(0.0);
+    for ((scatterer, depth), part) in air.scatterers().iter().zip(&mut passed.depths).zip(parts.chunks_exact_mut(PARTS)) {
+        let coefficient = scatterer.coefficient(point.place);
+        if let Some(light) = &sunlit {
             for n in 0..N {
-                whole[n] /= 1.0 - scatterer.forward[n];
-            }
-            if let Some(light) = &straight {
-                let above = scatterer.above(point.place);
-                for n in 0..N {
-                    let depth = forward_depth[n] + 0.5 * point.length * scatterer.forward[n] * whole[n];
-                    let strength = light[n] * point.weight[n] * exp_one(-depth) * whole[n] * (0.25 / PI) as f32;
-                    part[1][n] += strength;
-                    part[2][n] += strength * (passed[n] + 0.5 * whole[n] * point.length + mass * above[n]);
-                }
-            }
-            add_scaled(passed, point.length, &whole);
-            for n in 0..N {
-                passing[n] += point.length * scatterer.forward[n] * whole[n];
+                part[0][n] += light[n] * point.weight[n] * coefficient[n] * (0.25 / PI) as f32;
             }
         }
-        add_scaled(&mut forward_depth, 1.0, &passing);
+        let mut whole = coefficient;
+        for n in 0..N {
+            whole[n] /= 1.0 - scatterer.forward[n];
+        }
+        if let Some(light) = &straight {
+            let above = scatterer.above(point.place);
+            for n in 0..N {
+                let forward = passed.forward[n] + 0.5 * point.length * scatterer.forward[n] * whole[n];
+                let strength = light[n] * point.weight[n] * exp_one(-forward) * whole[n] * (0.25 / PI) as f32;
+                part[1][n] += strength;
+                part[2][n] += strength * (depth[n] + 0.5 * whole[n] * point.length + mass * above[n]);
+            }
+        }
+        add_scaled(depth, point.length, &whole);
+        for n in 0..N {
+            passing[n] += point.length * scatterer.forward[n] * whole[n];
+        }
     }
+    add_scaled(&mut passed.forward, 1.0, &passing);
 }
 
 /// Length of an oblique path through a low layer relative to the vertical one, for the cosine of its zenith angle (Rozenberg 1966, Twilight, p. 160).

@@ -43,6 +43,16 @@ pub struct Block {
     pub field: Relative<LANES>,
 }
 
+impl Block {
+    /// Irradiance of the ground by Sun and sky together, per unit solar irradiance, where the Sun's zenith angle has this cosine.
+    #[inline(always)]
+    pub fn ground_irradiance(&self, grid: &Grid, zenith_cosine: f64) -> Lanes<LANES> {
+        let mut sum = direct_ground_irradiance(&self.air, &self.sunlight, zenith_cosine);
+        add_scaled(&mut sum, 1.0, &self.field.ground_irradiance(grid, zenith_cosine));
+        sum
+    }
+}
+
 /// What an application of the operator needs.
 struct Operator<'a> {
     air: &'a Air<LANES>,

@@ -338,6 +338,45 @@ impl Sky {
         PyArray1::from_vec(py, stokes).reshape(shape)
     }
 
+    /// Light of parts of the lines of sight: the transmittance from the observer to distances, and the radiance of the sunlight that the air before them scatters to the
+    /// observer, two arrays of shape (N, D, W). [1, W m-2 sr-1 nm-1]
+    ///
+    /// A surface of radiance L at a distance is seen as L times the transmittance plus the radiance: this is aerial perspective. A line of sight ends on the ground or in space, and
+    /// distances beyond find what its end has; the light of the ground is not in it. The transmittance is that of light that is neither scattered nor absorbed: what haze turns into the line of sight from beside it is in the radiance, with the clear sky's light around the line.
+    ///
+    /// The radiance is of sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    ///
+    /// Parameters
+    /// ----------
+    /// directions
+    ///     Unit vectors (east, north, up) that one looks along, shape (N, 3).
+    /// distances_m
+    ///     From the observer along the line of sight, 0 to infinity, in any order, shape (D,) or a number. [m]
+    /// wavelengths_nm
+    ///     Shape (W,), within the atmosphere's wavelengths. [nm]
+    /// progress
+    ///     Called with stage and fraction; returning False raises Cancelled.
+    #[pyo3(signature = (directions, distances_m, wavelengths_nm, *, progress = None))]
+    #[allow(clippy::type_complexity, reason = "two arrays")]
+    fn segment<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        distances_m: &Bound<'py, PyAny>,
+        wavelengths_nm: &Bound<'py, PyAny>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>)> {
+        let directions = unit_vectors(directions)?;
+        let distances_m = arrays::vector("distances_m", distances_m)?;
+        let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
+        let shape = [directions.len(), distances_m.len(), wavelengths_nm.len()];
+        self.warn_of_the_night(py, "segment")?;
+        let light = work::run(py, progress, |progress| self.inner.segment(&directions, &distances_m, &wavelengths_nm, progress))?;
+        let array = |values| PyArray1::from_vec(py, values).reshape(shape);
+        Ok((array(light.transmittance)?, array(light.in_scattered_radiance)?))
+    }
+
     /// Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
     ///
     /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is

@@ -35,4 +35,5 @@ pub use options::{Layer, LayerScales, LightOptions, Model, NightOptions, Polaris
 pub use place_and_time::Sky;
 pub use preetham::Preetham;
 pub use sky_light::SkyLight;
+pub use spectra::SegmentLight;
 pub use thesis::ThesisSky;

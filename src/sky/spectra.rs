@@ -1,11 +1,12 @@
 //! What arrives at the observer of a sky, by wavelength: radiance and Stokes parameters by direction, irradiance.
 
+use super::eclipse::Gain;
 use super::irradiance::{Irradiance, Nodes};
 use super::place_and_time::Sky;
 use super::sunlight::Sunlight;
 use crate::ephemeris::horizontal_from_direction;
 use crate::error::{Error, Result, check_finite};
-use crate::light::{Gathered, LightField, transverse};
+use crate::light::{Gathered, LightField, Segments, transverse};
 use crate::numerics::CubicSpline;
 use crate::progress::Progress;
 use glam::DVec3;
@@ -76,26 +77,86 @@ impl Sky {
         result: impl Fn(&Gathered, &Look) -> T + Sync,
     ) -> Result<Vec<T>> {
         let observer = self.observer();
-        let sun = self.sun().direction();
         let gain = Sunlight::of(self).gain_under_eclipse(field, progress)?;
         let parts = progress.parts("gather", directions.len());
         directions
             .par_iter()
             .map(|direction| {
-                let direction = direction.normalize();
-                let mu = direction.z.clamp(-1.0, 1.0);
-                // Counterclockwise from the Sun, against the compass.
-                let azimuth = (self.sun().azimuth_deg - horizontal_from_direction(direction).1).to_radians();
-                let look = Look {
-                    cosine: direction.dot(sun),
-                    transverse: transverse(mu, azimuth, observer.sun_zenith),
-                    gain: gain.as_ref().map_or(1.0, |gain| gain.at(mu.asin())),
-                };
-                let value = result(&field.gather(&observer, mu, &[azimuth]), &look);
+                let look = self.look(direction.normalize(), gain.as_ref());
+                let value = result(&field.gather(&observer, look.mu, &[look.azimuth]), &look);
                 parts.finish_one()?;
                 Ok(value)
             })
             .collect()
+    }
+
+    /// Where a unit vector looks relative to the Sun.
+    fn look(&self, direction: DVec3, gain: Option<&Gain>) -> Look {
+        let mu = direction.z.clamp(-1.0, 1.0);
+        // Counterclockwise from the Sun, against the compass.
+        let azimuth = (self.sun().azimuth_deg - horizontal_from_direction(direction).1).to_radians();
+        Look {
+            mu,
+            azimuth,
+            cosine: direction.dot(self.sun().direction()),
+            transverse: transverse(mu, azimuth, self.observer().sun_zenith),
+            gain: gain.map_or(1.0, |gain| gain.at(mu.asin())),
+        }
+    }
+
+    /// The light of parts of the lines of sight along unit vectors `directions` (east, north, up): from the observer to each of `distances_m` (0 to infinity, in any order), at `wavelengths_nm`. A
+    /// line ends on the ground or in space. With a surface of radiance L at a distance, what is seen is L x transmittance + in-scattered radiance.
+    ///
+    /// The transmittance is that of light that is neither scattered nor absorbed; what haze turns into a line of sight is in-scattered light, with the light that this sky has along the line. It is sunlight alone. [`Self::has_more_than_sunlight`] tells whether this sky has other light.
+    ///
+    /// # Errors
+    /// As [`Self::spectral_radiance`]; [`Error::Input`] for distances that are negative or no numbers.
+    pub fn segment(
+        &self,
+        directions: &[DVec3],
+        distances_m: &[f64],
+        wavelengths_nm: &[f64],
+        progress: &Progress,
+    ) -> Result<SegmentLight> {
+        self.atmosphere().check_wavelengths(wavelengths_nm)?;
+        check_directions(directions)?;
+        if let Some((index, distance)) =
+            distances_m.iter().enumerate().find(|(_, distance)| distance.is_nan() || **distance < 0.0)
+        {
+            return Err(Error::input(format!("distances_m[{index}]"), distance, "0 m or more, or infinity"));
+        }
+        let mut order: Vec<usize> = (0..distances_m.len()).collect();
+        order.sort_by(|&a, &b| distances_m[a].total_cmp(&distances_m[b]));
+        let ascending_km: Vec<f64> = order.iter().map(|&index| distances_m[index] / 1000.0).collect();
+        let field = self.field(progress)?;
+        let sunlight = Sunlight::of(self).sunlight_in_the_air(wavelengths_nm);
+        let whole = vec![1.0; wavelengths_nm.len()];
+        let gain = Sunlight::of(self).gain_under_eclipse(field, progress)?;
+        let observer = self.observer();
+        let parts = progress.parts("gather", directions.len());
+        let of = |segments: &mut Segments, direction: &DVec3| -> Result<[Vec<f64>; 2]> {
+            let look = self.look(direction.normalize(), gain.as_ref());
+            field.segments(&observer, look.mu, &[look.azimuth], &ascending_km, segments);
+            let row = order.len() * wavelengths_nm.len();
+            let [mut transmittance, mut radiance] = [vec![0.0; row], vec![0.0; row]];
+            for (ascending, &index) in order.iter().enumerate() {
+                let places = index * wavelengths_nm.len()..(index + 1) * wavelengths_nm.len();
+                let passing = segments.transmittance(ascending);
+                let passing = self.at_wavelengths(passing, wavelengths_nm, &whole);
+                transmittance[places.clone()].iter_mut().zip(passing).for_each(|(out, value)| *out = value.min(1.0));
+                let relative = segments.radiance(0, ascending);
+                check_finite("the in-scattered light", relative)?;
+                if relative.iter().any(|&value| value > 0.0) {
+                    let light = self.at_wavelengths(relative, wavelengths_nm, &sunlight);
+                    radiance[places].iter_mut().zip(light).for_each(|(out, value)| *out = value * look.gain);
+                }
+            }
+            parts.finish_one()?;
+            Ok([transmittance, radiance])
+        };
+        let rows = directions.par_iter().map_init(Segments::default, of).collect::<Result<Vec<_>>>()?;
+        let (transmittance, in_scattered): (Vec<_>, Vec<_>) = rows.into_iter().map(|[t, l]| (t, l)).unzip();
+        Ok(SegmentLight { transmittance: transmittance.concat(), in_scattered_radiance: in_scattered.concat() })
     }
 
     /// Spectral irradiance by the Sun (at a total eclipse by its corona) and by the sky at `wavelengths_nm`.
@@ -152,8 +213,21 @@ fn check_directions(directions: &[DVec3]) -> Result<()> {
     }
 }
 
+/// The light of parts of lines of sight, row-major, shape (directions, distances, wavelengths).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentLight {
+    /// Part of the light from a distance that arrives at the observer, 0 to 1.
+    pub transmittance: Vec<f64>,
+    /// What the air before it scatters to the observer [W m-2 sr-1 nm-1].
+    pub in_scattered_radiance: Vec<f64>,
+}
+
 /// A look direction relative to the Sun.
 pub(super) struct Look {
+    /// Cosine of its zenith angle.
+    mu: f64,
+    /// Azimuth from the Sun, counterclockwise [radians].
+    azimuth: f64,
     /// Cosine of the angle between them.
     pub cosine: f64,
     /// Components of the direction to the Sun across the look direction.

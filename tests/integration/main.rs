@@ -21,6 +21,7 @@ mod path_tracer_polarisation;
 mod path_tracer_twilight;
 mod polarisation;
 mod radiance;
+mod segments;
 mod shared_reference_bodies;
 mod shared_reference_ephemeris;
 mod shared_reference_pictures;

@@ -17,8 +17,8 @@ mod tables;
 pub(super) use flight::{Ending, Flight, Sunshine};
 pub(super) use lobes::Lobes;
 
+use super::super::chord::Chord;
 use super::medium::Medium;
-use super::shells::Chord;
 use crate::units::EARTH_RADIUS_KM;
 use std::f64::consts::PI;
 use tables::{Tables, bilinear, split};

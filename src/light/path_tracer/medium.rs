@@ -1,8 +1,9 @@
 //! The air at one wavelength as a path meets it: extinction, scattering, and the Sun's light at a point.
 
+use super::super::chord::Chord;
 use super::angles::{Angles, bin};
 use super::sampling::Random;
-use super::shells::{Chord, End, Shells};
+use super::shells::{End, Shells};
 use super::stokes::{Basis, Mueller, Stokes, dipole_of_natural_light};
 use crate::atmosphere::{OpticalProfile, Phase};
 use crate::error::{Error, Result};

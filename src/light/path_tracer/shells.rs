@@ -1,48 +1,8 @@
-//! Optical depth along a straight ray through spherical shells whose coefficients are linear in altitude.
-//!
-//! tau(t) = integral from 0 to t of beta(z(t')) dt', with z(t) = h + (t^2 + 2 r mu t) / (r(t) + r), where
-//! t = distance along the ray \[km\], h = altitude of its start \[km\], r = h + planet radius \[km\], mu = cosine of the angle
-//! between the ray and the local vertical at its start, r(t) = sqrt(r^2 + 2 r mu t + t^2), beta = extinction \[km-1\].
-//!
-//! The ray is cut where it crosses an altitude of the profile and at its lowest point. Within such a piece beta is linear in z,
-//! and z is all but a parabola in t, for which Simpson's rule is exact (relative error below 1e-6 on the Earth).
+//! Optical depth along a straight ray through spherical shells whose coefficients are linear in altitude ([`crate::light::chord`]).
 
+use super::super::chord::{Chord, Piece, walk};
 use crate::numerics::locate;
 use std::ops::ControlFlow;
-
-/// The start of a ray relative to the planet: all that its passage through the shells depends on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chord {
-    /// Altitude of the start [km].
-    pub altitude: f64,
-    /// Distance of the start from the planet's centre [km].
-    pub radius: f64,
-    /// Cosine of the angle between the ray and the local vertical at the start.
-    pub cosine: f64,
-}
-
-impl Chord {
-    /// Altitude at distance `t` [km] along the ray, without cancellation of the planet's radius.
-    pub fn altitude_at(&self, t: f64) -> f64 {
-        let difference = t * (t + 2.0 * self.radius * self.cosine);
-        let radius = (self.radius * self.radius + difference).max(0.0).sqrt();
-        self.altitude + difference / (radius + self.radius)
-    }
-
-    /// Distances [km] at which the line crosses `altitude`: the way in and the way out. `None` if it stays above.
-    pub fn crossings(&self, altitude: f64) -> Option<(f64, f64)> {
-        let half = self.radius * self.cosine;
-        // r(altitude)^2 - radius^2; the two distances have the product -power and the sum -2 half.
-        let power = (altitude - self.altitude) * (2.0 * self.radius + altitude - self.altitude);
-        let discriminant = half * half + power;
-        if discriminant < 0.0 {
-            return None;
-        }
-        let larger = half.abs() + discriminant.sqrt();
-        let smaller = if larger > 0.0 { power / larger } else { 0.0 };
-        Some(if half > 0.0 { (-larger, smaller) } else { (-smaller, larger) })
-    }
-}
 
 /// How a ray ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,15 +11,6 @@ pub(super) enum End {
     Ground,
     /// Outside the atmosphere.
     Space,
-}
-
-/// A piece of a ray within one layer: distances and altitudes [km] of its ends.
-struct Piece {
-    layer: usize,
-    from: f64,
-    to: f64,
-    altitude_from: f64,
-    altitude_to: f64,
 }
 
 /// Extinction against altitude around a spherical planet.
@@ -103,7 +54,7 @@ impl Shells {
     /// Optical depth from the start of the ray to `distance` [km].
     pub fn optical_depth(&self, chord: &Chord, distance: f64) -> f64 {
         let mut sum = 0.0;
-        let _ = self.walk(chord, distance, |piece| {
+        let _ = walk(&self.altitudes, chord, distance, |piece| {
             sum += self.piece_depth(chord, &piece, piece.to, piece.altitude_to);
             ControlFlow::<()>::Continue(())
         });
@@ -114,7 +65,7 @@ impl Shells {
     /// [km].
     pub fn distance_at(&self, chord: &Chord, depth: f64, limit: f64) -> Option<f64> {
         let mut left = depth;
-        let found = self.walk(chord, limit, |piece| {
+        let found = walk(&self.altitudes, chord, limit, |piece| {
             let here = self.piece_depth(chord, &piece, piece.to, piece.altitude_to);
             if here < left {
                 left -= here;
@@ -154,45 +105,7 @@ impl Shells {
 
     /// Optical depth from the start of `piece` to distance `t`, where the altitude is `altitude_t`.
     fn piece_depth(&self, chord: &Chord, piece: &Piece, t: f64, altitude_t: f64) -> f64 {
-        let middle = chord.altitude_at(0.5 * (piece.from + t));
-        let mean = (piece.altitude_from + 4.0 * middle + altitude_t) / 6.0;
-        (t - piece.from) * self.extinction_in(piece.layer, mean)
-    }
-
-    /// Visits the pieces of the ray in order, up to `limit` [km] or the end of the ray.
-    fn walk<B>(&self, chord: &Chord, limit: f64, mut visit: impl FnMut(Piece) -> ControlFlow<B>) -> ControlFlow<B> {
-        let (mut layer, fraction) = self.locate(chord.altitude);
-        let (mut t, mut altitude) = (0.0, chord.altitude);
-        let mut step = |layer: usize, t: &mut f64, altitude: &mut f64, to: f64, altitude_to: f64| {
-            let (to, altitude_to) = if to > limit { (limit, chord.altitude_at(limit)) } else { (to, altitude_to) };
-            if to <= *t {
-                return ControlFlow::Continue(());
-            }
-            let piece = Piece { layer, from: *t, to, altitude_from: *altitude, altitude_to };
-            (*t, *altitude) = (to, altitude_to);
-            visit(piece)
-        };
-        if chord.cosine < 0.0 {
-            if fraction == 0.0 && layer > 0 {
-                layer -= 1;
-            }
-            while let Some((way_in, _)) = chord.crossings(self.altitudes[layer]) {
-                step(layer, &mut t, &mut altitude, way_in, self.altitudes[layer])?;
-                if layer == 0 || t >= limit {
-                    return ControlFlow::Continue(());
-                }
-                layer -= 1;
-            }
-            let lowest = -chord.radius * chord.cosine;
-            step(layer, &mut t, &mut altitude, lowest, chord.altitude_at(lowest))?;
-        }
-        while layer + 1 < self.altitudes.len() && t < limit {
-            let bound = self.altitudes[layer + 1];
-            let Some((_, way_out)) = chord.crossings(bound) else { break };
-            step(layer, &mut t, &mut altitude, way_out, bound)?;
-            layer += 1;
-        }
-        ControlFlow::Continue(())
+        (t - piece.from) * self.extinction_in(piece.layer, piece.mean_altitude(chord, t, altitude_t))
     }
 }
 

@@ -15,7 +15,7 @@ const STEP_KM: f64 = 2.5;
 pub(super) fn single_scattering(medium: &Medium, scene: &Scene) -> Stokes {
     let (shells, into) = (&medium.shells, basis(scene.view));
     let chord = medium.chord(scene.start, scene.view);
-    let (_, end) = shells.end(&chord);
+    let (_, end) = scene.end(shells.end(&chord));
     let mut cuts: Vec<f64> = shells.altitudes().iter().filter_map(|&z| chord.crossings(z)).flat_map(|(a, b)| [a, b]).collect();
     cuts.extend([0.0, -chord.radius * chord.cosine, end]);
     cuts.extend((1..).map(|i| f64::from(i) * STEP_KM).take_while(|&t| t < end).take(100_000));

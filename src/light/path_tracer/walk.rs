@@ -4,11 +4,12 @@
 //! turned about the Sun (so that two small turns into the aureole leave no rare, heavy path), and of the guide; the next distance
 //! from the guide, or else from the collisions. Weights are the physical density over that of the mixture.
 
+use super::super::chord::Chord;
 use super::disc::Disc;
 use super::guide::{Ending, Flight, Guide, Lobes, Sunshine};
 use super::medium::{Medium, Place};
 use super::sampling::{Random, around, lambertian};
-use super::shells::{Chord, End};
+use super::shells::End;
 use super::stokes::{Basis, Mueller, Stokes, basis};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -44,6 +45,15 @@ pub(super) struct Scene {
     pub start: DVec3,
     pub view: DVec3,
     pub sun: Disc,
+    /// Length of the line of sight in whose air light is looked for [km], and not on the ground; `None` for all of it and the ground.
+    pub length: Option<f64>,
+}
+
+impl Scene {
+    /// How the line of sight ends, and at which distance, where `end` is what shells and ground say.
+    pub fn end(&self, end: (End, f64)) -> (End, f64) {
+        self.length.map_or(end, |length| (End::Space, length.min(end.1)))
+    }
 }
 
 /// An end of a path, on its way.
@@ -92,7 +102,11 @@ impl<'a> Walker<'a> {
     fn advance(&mut self, mut tip: Tip, value: &mut Stokes, random: &mut Random) {
         let medium = self.medium;
         let chord = medium.chord(tip.position, tip.direction);
-        let (end, length) = medium.shells.end(&chord);
+        let mut end = medium.shells.end(&chord);
+        if tip.events == 0 {
+            end = self.scene.end(end);
+        }
+        let (end, length) = end;
         let Some((collision, ratio)) = self.fly(&tip, &chord, end, length, random) else { return };
         tip.weight = tip.weight.scaled(ratio);
         tip.position += tip.direction * collision.unwrap_or(length);

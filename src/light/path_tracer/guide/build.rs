@@ -4,8 +4,9 @@ use super::bins::{AZIMUTHS, BINS, ZENITHS, azimuth_range, solid_angle, zenith_ra
 use super::flight::{Flight, Sunshine};
 use super::tables::horizon_cosine;
 use super::{Guide, LEVELS, SUNS, sun_cosine};
+use crate::light::chord::Chord;
 use crate::light::path_tracer::medium::Medium;
-use crate::light::path_tracer::shells::{Chord, End};
+use crate::light::path_tracer::shells::End;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 

@@ -5,8 +5,8 @@
 //! density of collisions, and to a smaller one uniform, so that no place is left out and no weight grows without bound.
 
 use super::Guide;
+use crate::light::chord::Chord;
 use crate::light::path_tracer::sampling::Random;
-use crate::light::path_tracer::shells::Chord;
 use std::f64::consts::PI;
 
 /// Share of flights that follow the collisions.

@@ -3,8 +3,9 @@
 //! Altitude enters as u = sqrt(z / top), which is fine near the ground; the Sun's height by the cosine of its zenith angle
 //! over that of the local horizon, e = c - h, as sqrt(e), which is fine where the Sun sets.
 
+use crate::light::chord::Chord;
 use crate::light::path_tracer::medium::Medium;
-use crate::light::path_tracer::shells::{Chord, End};
+use crate::light::path_tracer::shells::End;
 
 const COLUMN_ROWS: usize = 400;
 const SUNLIGHT_LEVELS: usize = 36;
