@@ -58,7 +58,7 @@ pub const AIR: Section = Section { title: "Air", rows: &[crate::atmosphere::AirP
 pub const NIGHT: Section = Section { title: "Night", rows: &[NightOptions::PARAMETERS] };
 /// The picture.
 pub const IMAGE: Section =
-    Section { title: "Image", rows: &[ProbeSettings::PARAMETERS, LightOptions::PARAMETERS, PolarisingFilter::PARAMETERS] };
+    Section { title: "Image", rows: &[ProbeSettings::PARAMETERS, LightOptions::MODEL, LightOptions::PARAMETERS, PolarisingFilter::PARAMETERS] };
 /// The files.
 pub const FILE: Section = Section { title: "Output", rows: &[FileOptions::PARAMETERS, OUTPUT] };
 
