@@ -381,6 +381,7 @@ impl SceneAtmosphere {
             .named("atmosphere", "polarisation", "Solve light with its polarisation")
             .default("true")
             .option("polarisation", "")
+            .off("no-polarisation")
             .detail()
             .more("As a scalar it is wrong by several per cent: only to compare with scalar codes."),
         Parameter::new(Kind::Ascending { low: 300.0, high: 1000.0 }, "nm")

@@ -169,8 +169,11 @@ pub const RENDER_TO_FILE: Call = Call {
 pub const CALLS: [&Call; 6] = [&ATMOSPHERE, &NIGHT, &POLARISING_FILTER, &RENDER, &RENDER_TO_FILE, &SAVE];
 
 /// Classes of Python that show the values of a table, each as an attribute.
-pub const SHOWN: [(&str, &[Parameter]); 3] =
-    [("Night", NightOptions::PARAMETERS), ("PolarisingFilter", PolarisingFilter::PARAMETERS), ("Probe", ProbeSettings::PARAMETERS)];
+pub const SHOWN: [(&str, &[Parameter]); 3] = [
+    ("Night", NightOptions::PARAMETERS),
+    ("PolarisingFilter", PolarisingFilter::PARAMETERS),
+    ("Probe", ProbeSettings::PARAMETERS),
+];
 
 /// An argument by name: of a row or not.
 #[derive(Clone, Copy, Debug)]

@@ -73,11 +73,8 @@ fn attributes(class: &str) -> String {
     let mut text = String::new();
     for row in SHOWN.iter().filter(|(name, _)| *name == class).flat_map(|(_, rows)| rows.iter()) {
         let (name, annotation) = (row.name, annotation(row));
-        let _ = write!(
-            text,
-            "\n    @property\n    def {name}(self) -> {annotation}:\n        \"\"\"{}\"\"\"\n",
-            attribute_text(row)
-        );
+        let _ =
+            write!(text, "\n    @property\n    def {name}(self) -> {annotation}:\n        \"\"\"{}\"\"\"\n", attribute_text(row));
     }
     text
 }
@@ -138,8 +135,11 @@ fn sentences(row: &Parameter) -> String {
     let allowed = match row.kind {
         Kind::Words(words) => word_list(words),
         Kind::WordsOrNumber { words, low, high } => format!("{}, or a number from {low} to {high}", word_list(words)),
+        // These blanks are no place to break a line.
         Kind::Factors { low, high, .. } => {
-            format!("{}, such as ``{{\"moon\": 0.0, \"stars\": 10.0}}``; see ``layer_names``", format_args!("{low} to {high} by name"))
+            format!(
+                "{low} to {high} for each, such as ``{{\"moon\":\u{a0}0.0,\u{a0}\"stars\":\u{a0}10.0}}``; see ``layer_names``"
+            )
         }
         Kind::Ascending { .. } => format!("{}, shape (W,)", row.allowed()),
         Kind::Flag => String::new(),
@@ -231,7 +231,7 @@ fn words() -> String {
 /// Lines of a paragraph, each begun with `pad`.
 fn wrapped(paragraph: &str, pad: &str) -> String {
     let mut lines = vec![pad.to_owned()];
-    for word in paragraph.split_whitespace() {
+    for word in paragraph.split(' ').filter(|word| !word.is_empty()) {
         match lines.last_mut() {
             Some(line) if line.len() == pad.len() => line.push_str(word),
             Some(line) if line.len() + 1 + word.len() <= LINE => {
@@ -241,7 +241,7 @@ fn wrapped(paragraph: &str, pad: &str) -> String {
             _ => lines.push(format!("{pad}{word}")),
         }
     }
-    lines.join("\n") + "\n"
+    lines.join("\n").replace('\u{a0}', " ") + "\n"
 }
 
 /// A docstring in its quotes, each line begun with `pad`.
@@ -266,7 +266,11 @@ mod tests {
     #[test]
     fn python_shows_every_keyword_with_its_default_and_range() {
         let (docs, stub) = (docstrings(), stub());
-        for part in ["Night(*, when='auto', star_limit=8.5, ", "render($self, *, width=2048, projection='latlong', ", "save($self, path, *, half=None, "] {
+        for part in [
+            "Night(*, when='auto', star_limit=8.5, ",
+            "render($self, *, width=2048, projection='latlong', ",
+            "save($self, path, *, half=None, ",
+        ] {
             assert!(docs.contains(part), "{part}");
         }
         let range = "bortle\n    The same as a class of light pollution on Bortle's scale: 1 is as dark as it gets, 9 an inner city. 1 to 9;";
