@@ -648,7 +648,8 @@ class PolarisingFilter:
         Angle of the filter's axis from the vertical, clockwise as one sees it. -180 to 180. [degrees]
     held_towards_deg
         Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture. Altitude -90 to
-        90, azimuth -360 to 360; by default it turns with the view. [degrees]
+        90, azimuth -360 to 360; by default it turns with the view. The closer one looks along its axis, the less it
+        does. [degrees]
     """
 
     def __new__(
@@ -1113,11 +1114,12 @@ class Sky:
         extent
             The full sphere, or its upper half. "full" or "upper".
         turn_deg
-            How far the sky in the picture is turned clockwise as seen from above, to the right. -360 to 360. [degrees]
+            How far the sky in the picture is turned clockwise as seen from above, to the right. -360 to 360. In a
+            latitude-longitude picture by turn / 360 of its width. [degrees]
         ground
             What is seen below the horizon: the lit ground, black, or the sky again. "on", "off" or "mirrored".
         sun_disc
-            Draw the Sun's disc. Left out to light the scene with a Sun lamp.
+            Draw the Sun's disc. With its exact energy at every width; left out to light the scene with a Sun lamp.
         moon_disc
             Draw the Moon's disc; planets and stars always are. Left out to light the scene with a lamp for it.
         scale
@@ -1126,16 +1128,16 @@ class Sky:
         color_space
             Colour space of the pixels, always linear. "lin_rec709", "acescg", "lin_rec2020" or "xyz".
         gamut
-            What becomes of colours outside that space. "desaturate", "clip" or "keep". keep leaves them as negative
-            numbers.
+            What becomes of colours outside that space. "desaturate", "clip" or "keep". desaturate: towards the grey of
+            their luminance. clip: negative numbers become 0. keep: they stay negative.
         polarising_filter
             What is held before the sky.
         tolerance
             Relative error that interpolated directions may have. 0.0001 to 0.5; by default as many directions as the
             quality says.
         layers
-            Factors on the light of layers, 0 to leave one out, as in stars=2. 0 to 1000000000 by name, such as ``{"moon":
-            0.0, "stars": 10.0}``; see ``layer_names``.
+            Factors on the light of layers, 0 to leave one out, as in stars=2. 0 to 1000000000 for each, such as
+            ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
         progress
             Called with stage and fraction; returning False raises Cancelled.
         """
