@@ -17,7 +17,8 @@ SCHEMA = json.loads((pathlib.Path(__file__).parent.parent / "docs" / "scene.sche
 
 def rows(table: str) -> dict[str, Any]:
     """The parameters of a table of the scene."""
-    return SCHEMA["properties"][table]["anyOf"][0]["properties"]
+    found: dict[str, Any] = SCHEMA["properties"][table]["anyOf"][0]["properties"]
+    return found
 
 
 CALLS: list[tuple[Any, dict[str, Any], set[str]]] = [

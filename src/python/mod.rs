@@ -1,7 +1,8 @@
 //! The extension module `skyprobe._core`: arguments in, results out, no physics.
 //!
 //! The docstrings that a Python user reads are those of `python/skyprobe/_core.pyi` and of the classes' members here; names, units
-//! and defaults are the same on both sides, which the tests check.
+//! and defaults are the same on both sides, which the tests check. Calls that take parameters by name have theirs, and their signatures,
+//! from the table of parameters: `docstrings` is made from it.
 
 mod air;
 mod arguments;
