@@ -13,11 +13,12 @@ mod own_numbers;
 #[path = "../../examples/1_probe.rs"]
 mod own_probe;
 
+type Write = fn(&str) -> skyprobe::Result<()>;
+
 #[test]
 fn probes_of_the_examples_are_lit_pictures() {
     let folder = tempfile::tempdir().unwrap();
-    let write: [(&str, fn(&str) -> skyprobe::Result<()>, usize); 2] =
-        [("probe.exr", own_probe::write, 1024), ("air.exr", own_air::write, 512)];
+    let write: [(&str, Write, usize); 2] = [("probe.exr", own_probe::write, 1024), ("air.exr", own_air::write, 512)];
     for (name, write, width) in write {
         let path = folder.path().join(name);
         write(path.to_str().unwrap()).unwrap();
