@@ -84,6 +84,8 @@ pub struct CommandOption {
     pub value: &'static str,
     /// Another name.
     pub alias: Option<&'static str>,
+    /// The option that says no, of a flag that is on where nothing is said.
+    pub off: Option<&'static str>,
     /// Whether only the long help shows it.
     pub is_detail: bool,
 }
@@ -149,7 +151,7 @@ impl Parameter {
 
     /// The same with an option of the command line, and what stands for its value in the help.
     pub const fn option(mut self, name: &'static str, value: &'static str) -> Self {
-        self.option = Some(CommandOption { name, value, alias: None, is_detail: false });
+        self.option = Some(CommandOption { name, value, alias: None, off: None, is_detail: false });
         self
     }
 
@@ -157,6 +159,14 @@ impl Parameter {
     pub const fn alias(mut self, alias: &'static str) -> Self {
         if let Some(option) = &mut self.option {
             option.alias = Some(alias);
+        }
+        self
+    }
+
+    /// The same with the option that says no.
+    pub const fn off(mut self, name: &'static str) -> Self {
+        if let Some(option) = &mut self.option {
+            option.off = Some(name);
         }
         self
     }

@@ -13,7 +13,9 @@
 //! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
 //! is a default; an unknown key is an error.
 
+pub mod calls;
 mod describe;
+pub mod face;
 mod ignored;
 pub mod json;
 mod parameters;
@@ -340,11 +342,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Input`] that names the parameter.
     pub fn atmosphere(&self) -> Result<Atmosphere> {
-        let SceneAtmosphere { air, quality, polarisation, wavelengths_nm } = &self.atmosphere;
-        match wavelengths_nm {
-            None => Atmosphere::new(air, *quality, *polarisation),
-            Some(wavelengths_nm) => Atmosphere::at_wavelengths(air, wavelengths_nm, *quality, *polarisation),
-        }
+        self.atmosphere.to_solve()
     }
 
     /// The sky of `atmosphere` over the place at the time, or under the Sun that is put.
@@ -383,6 +381,7 @@ impl SceneAtmosphere {
             .named("atmosphere", "polarisation", "Solve light with its polarisation")
             .default("true")
             .option("polarisation", "")
+            .off("no-polarisation")
             .detail()
             .more("As a scalar it is wrong by several per cent: only to compare with scalar codes."),
         Parameter::new(Kind::Ascending { low: 300.0, high: 1000.0 }, "nm")
@@ -410,6 +409,18 @@ impl SceneAtmosphere {
             other => other,
         })?;
         Ok(Self { air, quality, polarisation, wavelengths_nm })
+    }
+
+    /// This air, not solved yet.
+    ///
+    /// # Errors
+    /// [`Error::Input`] that names the parameter.
+    pub fn to_solve(&self) -> Result<Atmosphere> {
+        let Self { air, quality, polarisation, wavelengths_nm } = self;
+        match wavelengths_nm {
+            None => Atmosphere::new(air, *quality, *polarisation),
+            Some(wavelengths_nm) => Atmosphere::at_wavelengths(air, wavelengths_nm, *quality, *polarisation),
+        }
     }
 
     fn to_value(&self) -> Value {

@@ -151,7 +151,7 @@ def test_wrong_air_is_named(keywords: dict[str, object], message: str) -> None:
 @pytest.mark.parametrize(
     ("keywords", "message"),
     [
-        ({"width": 0}, r"width = 0: must be a number from 64 to 16384 pixels"),
+        ({"width": 0}, r"width = 0: must be a whole number from 64 to 16384 pixels"),
         ({"width": -5}, r"width = -5: must be"),
         ({"width": 65}, r"width = 65: must be even"),
         ({"scale": "nits"}, r'scale = "nits": must be'),

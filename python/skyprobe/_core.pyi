@@ -9,9 +9,20 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
-_Quality: TypeAlias = Literal["draft", "standard", "high", "reference"]
+# Made by `skyprobe schema --format python-stub`: words
+_SunModel: TypeAlias = Literal["iau", "thesis"]
 _Preset: TypeAlias = Literal[
-    "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "fog", "volcanic", "thesis"
+    "clear",
+    "pure",
+    "hazy",
+    "polluted",
+    "urban",
+    "maritime",
+    "desert",
+    "antarctic",
+    "fog",
+    "volcanic",
+    "thesis",
 ]
 _Aerosol: TypeAlias = Literal[
     "none",
@@ -28,16 +39,41 @@ _Aerosol: TypeAlias = Literal[
     "fog",
     "thesis",
 ]
+_AtmosphereGround: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
 _PhaseFunction: TypeAlias = Literal["mie", "henyey_greenstein", "cornette_shanks"]
-_Ground: TypeAlias = Literal["grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt"]
+_StandardAtmosphere: TypeAlias = Literal[
+    "us_standard_1976",
+    "tropical",
+    "midlatitude_summer",
+    "midlatitude_winter",
+    "subarctic_summer",
+    "subarctic_winter",
+]
+_Quality: TypeAlias = Literal["draft", "standard", "high", "reference"]
+_When: TypeAlias = Literal["auto", "always", "never"]
+_Projection: TypeAlias = Literal["latlong", "fisheye"]
+_Rows: TypeAlias = Literal["centre", "corner"]
+_Extent: TypeAlias = Literal["full", "upper"]
+_ProbeGround: TypeAlias = Literal["on", "off", "mirrored"]
 _Scale: TypeAlias = Literal["blender", "mitsuba", "luminance"]
 _ColorSpace: TypeAlias = Literal["lin_rec709", "acescg", "lin_rec2020", "xyz"]
+_Gamut: TypeAlias = Literal["desaturate", "clip", "keep"]
 _Model: TypeAlias = Literal["scattering", "preetham", "thesis", "thesis_single"]
+_Half: TypeAlias = Literal["off", "refuse", "scale"]
+_Operator: TypeAlias = Literal[
+    "sky",
+    "filmic",
+    "aces",
+    "exposure",
+    "reinhard",
+    "reinhard_local",
+    "ashikhmin",
+    "logarithmic",
+    "linear",
+]
+# Until here.
 _PhaseName: TypeAlias = Literal["new", "first quarter", "full", "last quarter"]
 _CoordinateStyle: TypeAlias = Literal["decimal", "minutes", "seconds"]
-_Operator: TypeAlias = Literal[
-    "sky", "filmic", "aces", "exposure", "reinhard", "reinhard_local", "ashikhmin", "logarithmic", "linear"
-]
 _Progress: TypeAlias = Callable[[str, float], bool | None]
 
 __all__ = [
@@ -171,6 +207,7 @@ class Component:
 
 @final
 class Atmosphere:
+    # Made by `skyprobe schema --format python-stub`: Atmosphere
     """The state of the air. It is solved on first use, once, and can be shared by any number of skies and threads.
 
     What is left out comes from the preset. At most one of ``aod550``, ``turbidity`` and ``visibility_km`` is given.
@@ -178,52 +215,67 @@ class Atmosphere:
     Parameters
     ----------
     preset
-        Where to start from: "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "fog", "volcanic" or
-        "thesis".
+        Where to start from. "clear", "pure", "hazy", "polluted", "urban", "maritime", "desert", "antarctic", "fog",
+        "volcanic" or "thesis". A preset fills in what is left out: the kind and amount of aerosol, the ground, ozone
+        and temperature.
     aerosol
-        Kind of haze: "none", "continental_clean", "continental_average", "continental_polluted", "urban", "maritime_clean",
-        "maritime_polluted", "maritime_tropical", "desert", "arctic", "antarctic", "fog" or "thesis".
-    relative_humidity
-        With which the particles grow, 0 to 99; 80 by default. [%]
+        Kind of aerosol. "none", "continental_clean", "continental_average", "continental_polluted", "urban",
+        "maritime_clean", "maritime_polluted", "maritime_tropical", "desert", "arctic", "antarctic", "fog" or "thesis";
+        by default the preset's.
     aod550
-        Vertical optical depth of the haze at 550 nm, 0 to 50.
+        Amount of aerosol as its vertical optical depth at 550 nm. 0 to 50; by default the preset's. Clear is 0.1, murky
+        0.5, fog 2 and more.
     turbidity
-        Optical depth of haze and molecules over that of the molecules at 550 nm, 1 (pure air) to 64.
+        Amount of aerosol as turbidity: the optical depth of aerosol and molecules over that of the molecules at 550 nm.
+        1 to 64; by default the preset's. Pure air is 1, clear 2, hazy 4 to 6, light fog 64.
     visibility_km
-        Horizontal visibility at the ground, from 0.05. [km]
+        Amount of aerosol as horizontal visibility at the ground. 0.05 to 4000; by default the preset's. At most that of
+        pure air, about 340 km at the sea; the optical depth must not exceed 50. [km]
     ozone_du
-        Ozone column, 0 to 1000. [Dobson units]
+        Ozone column. 0 to 1000; by default the preset's, mostly 300. It makes the twilight blue. [Dobson units]
     ground
-        "grass", "forest", "soil", "desert", "snow", "sea", "city", "asphalt", or one albedo from 0 to 1.
-    angstrom_exponent
-        Replaces the spectral slope of the haze's extinction, -1 to 4.
-    single_scattering_albedo
-        Replaces the haze's single scattering albedo, 0 to 1.
-    asymmetry
-        Replaces the haze's asymmetry parameter, -0.99 to 0.99, and so its phase function.
-    phase_function
-        How the haze scatters: "mie", "henyey_greenstein" or "cornette_shanks"; "mie" by default, "henyey_greenstein" if ``asymmetry`` is
-        given.
-    aerosol_scale_height_km
-        Replaces the haze's scale height, or the depth of a layer of fog, 0.1 to 20. [km]
+        The ground by name, or its albedo. "grass", "forest", "soil", "desert", "snow", "sea", "city" or "asphalt", or a
+        number from 0 to 1; by default the preset's.
     stratospheric_aod550
-        Vertical optical depth at 550 nm of volcanic sulphuric acid in the stratosphere, 0 to 1; it comes on top of ``aod550``.
+        Optical depth at 550 nm of volcanic haze in the stratosphere. 0 to 1; by default the preset's, mostly 0.
+        Droplets of sulphuric acid, as after a great eruption; they come on top of the aerosol near the ground.
     stratospheric_altitude_km
-        Altitude of its middle, 12 to 40; 20 by default. [km]
+        Altitude of the middle of the volcanic haze. 12 to 40; by default 20. [km]
+    relative_humidity
+        Relative humidity, with which the particles grow. 0 to 99; by default 80. Amounts are those of the grown
+        particles. [%]
+    phase_function
+        How the aerosol scatters. "mie", "henyey_greenstein" or "cornette_shanks"; by default mie; henyey_greenstein if
+        an asymmetry is given or the aerosol is not made of particles.
+    angstrom_exponent
+        Spectral slope of the aerosol's extinction, which becomes (wavelength / 550 nm)^-exponent. -1 to 4; by default
+        the aerosol's own spectrum.
+    single_scattering_albedo
+        Share of the aerosol's extinction that is scattering, at all wavelengths. 0 to 1; by default the aerosol's own
+        spectrum.
+    asymmetry
+        Asymmetry parameter: how much the aerosol scatters forward, by the function of Henyey and Greenstein. -0.99 to
+        0.99; by default the aerosol's.
+    aerosol_scale_height_km
+        Height in which the aerosol thins out to 1/e, or depth of a layer of fog. 0.1 to 20; by default the aerosol's.
+        [km]
     standard_atmosphere
-        Profile of temperature and density, such as "us_standard_1976" or "tropical".
+        Profile of temperature and density, and shape of the ozone profile. "us_standard_1976", "tropical",
+        "midlatitude_summer", "midlatitude_winter", "subarctic_summer" or "subarctic_winter"; by default the preset's.
     surface_pressure_hpa
-        Pressure at the ground, 100 to 1100. [hPa]
+        Pressure at the ground, which scales the molecules at all altitudes. 100 to 1100; by default that of the
+        standard atmosphere. [hPa]
     quality
-        "draft", "standard", "high" or "reference".
+        How finely the light is solved. "draft", "standard", "high" or "reference".
     polarisation
-        Whether light is solved with its polarisation. As a scalar it is wrong by several per cent: only to compare with scalar codes.
+        Solve light with its polarisation. As a scalar it is wrong by several per cent: only to compare with scalar
+        codes.
     wavelengths_nm
-        Wavelengths at which light is solved instead of those of the quality: ascending, 300 to 1000, shape (W,). A probe and an illuminance
-        need at least four, from 450 or less to 650 or more. [nm]
+        Wavelengths at which light is solved instead of those of the quality. Ascending, 300 to 1000, shape (W,). A
+        probe and an illuminance need at least four, from 450 or less to 650 or more. [nm]
     cache
-        Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see ``SKYPROBE_CACHE_DIR``; drafts
-        are not kept).
+        Whether light that was solved earlier is used again, and what is solved is kept, on this machine (see
+        ``SKYPROBE_CACHE_DIR``; drafts are not kept).
     """
 
     def __new__(
@@ -231,26 +283,27 @@ class Atmosphere:
         *,
         preset: _Preset = "clear",
         aerosol: _Aerosol | None = None,
-        relative_humidity: float | None = None,
         aod550: float | None = None,
         turbidity: float | None = None,
         visibility_km: float | None = None,
         ozone_du: float | None = None,
-        ground: _Ground | float | None = None,
+        ground: _AtmosphereGround | float | None = None,
+        stratospheric_aod550: float | None = None,
+        stratospheric_altitude_km: float | None = None,
+        relative_humidity: float | None = None,
+        phase_function: _PhaseFunction | None = None,
         angstrom_exponent: float | None = None,
         single_scattering_albedo: float | None = None,
         asymmetry: float | None = None,
-        phase_function: _PhaseFunction | None = None,
         aerosol_scale_height_km: float | None = None,
-        stratospheric_aod550: float | None = None,
-        stratospheric_altitude_km: float | None = None,
-        standard_atmosphere: str | None = None,
+        standard_atmosphere: _StandardAtmosphere | None = None,
         surface_pressure_hpa: float | None = None,
         quality: _Quality = "standard",
         polarisation: bool = True,
         wavelengths_nm: ArrayLike | None = None,
         cache: bool = True,
     ) -> Atmosphere: ...
+    # Until here.
     @staticmethod
     def from_profile(
         altitudes_km: ArrayLike,
@@ -582,62 +635,76 @@ class Illuminance:
 
 @final
 class PolarisingFilter:
-    """A polarising filter between the sky and the picture: what is seen is I + strength (Q cos 2c + U sin 2c), where c is the angle of its
-    axis from the vertical. The half of the light that any filter takes is made up for by the exposure.
+    # Made by `skyprobe schema --format python-stub`: PolarisingFilter
+    """A polarising filter between the sky and the picture: what is seen is I + strength (Q cos 2c + U sin 2c), where c is
+    the angle of its axis from the vertical. The half of the light that any filter takes is made up for by the exposure.
 
     Parameters
     ----------
     strength
-        0 (no filter) to 1 (ideal).
+        See the sky through a polarising filter of this strength: 1 is ideal. 0 to 1. Exposed so that unpolarised light
+        stays as it is.
     angle_deg
-        Angle of the axis from the vertical, clockwise as one sees it, -180 to 180. [degrees]
+        Angle of the filter's axis from the vertical, clockwise as one sees it. -180 to 180. [degrees]
     held_towards_deg
-        Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture; the closer one looks along its axis, the less
-        it does. None: it turns with the view, its axis at the same angle from the vertical in every direction. [degrees]
-    """
-
-    def __new__(
-        cls, *, strength: float = 1.0, angle_deg: float = 0.0, held_towards_deg: tuple[float, float] | None = None
-    ) -> PolarisingFilter: ...
-    @property
-    def strength(self) -> float:
-        """0 (no filter) to 1 (ideal)."""
-
-    @property
-    def angle_deg(self) -> float:
-        """Angle of the axis from the vertical, clockwise as one sees it. [degrees]"""
-
-    @property
-    def held_towards_deg(self) -> tuple[float, float] | None:
-        """Altitude and azimuth towards which the filter is held; None if it turns with the view. [degrees]"""
-
-@final
-class Night:
-    """What of the night is in a sky with place and time, and how bright what varies is.
-
-    Parameters
-    ----------
-    when
-        "auto": Moon and planets always, and while the Sun's centre is below the horizon or the Sun totally eclipsed moonlight in the air, stars and diffuse light too, which by
-        day are less than a thousandth of the light. "always": all of them by day, too. "never": none.
-    star_limit
-        Stars to this magnitude V are drawn one by one, -2 to 8.5; the light of fainter ones is part of the Milky Way.
-    solar_flux_sfu
-        Solar radio flux at 10.7 cm, with which the airglow grows, 60 to 300: 70 at the Sun's minimum, 130 on average, 200 at maximum.
-        [solar flux units]
-    zenith_brightness
-        Brightness of the moonless zenith over a lit country, natural light (22.0) included, 15 to 22. None: no artificial light, unless ``bortle`` is
-        given. [mag arcsec-2]
-    bortle
-        The same as a class of Bortle's scale, 1 (as dark as it gets) to 9 (inner city). At most one of the two is given.
-    led_share
-        Share of the artificial light that comes from white LEDs, 0 to 1; the rest comes from high-pressure sodium lamps.
+        Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture. Altitude -90 to
+        90, azimuth -360 to 360; by default it turns with the view. The closer one looks along its axis, the less it
+        does. [degrees]
     """
 
     def __new__(
         cls,
         *,
-        when: Literal["auto", "always", "never"] = "auto",
+        strength: float = 1.0,
+        angle_deg: float = 0.0,
+        held_towards_deg: tuple[float, float] | None = None,
+    ) -> PolarisingFilter: ...
+
+    @property
+    def strength(self) -> float:
+        """See the sky through a polarising filter of this strength: 1 is ideal."""
+
+    @property
+    def angle_deg(self) -> float:
+        """Angle of the filter's axis from the vertical, clockwise as one sees it. [degrees]"""
+
+    @property
+    def held_towards_deg(self) -> tuple[float, float] | None:
+        """Altitude and azimuth towards which the filter is held, one piece of glass for the whole picture; None: it turns with the view. [degrees]"""
+    # Until here.
+
+@final
+class Night:
+    # Made by `skyprobe schema --format python-stub`: Night
+    """What of the night is in a sky with place and time, and how bright what varies is.
+
+    At most one of ``zenith_brightness`` and ``bortle`` is given.
+
+    Parameters
+    ----------
+    when
+        When Moon, stars and the other lights of the night are in the sky. "auto", "always" or "never". auto: Moon and
+        planets always, all else while the Sun's centre is below the horizon or the Sun totally eclipsed; by day it is
+        less than a thousandth of the light. A Sun that is put has no night.
+    star_limit
+        Stars to this magnitude are drawn one by one. -2 to 8.5. The light of fainter ones is part of the Milky Way. [V]
+    solar_flux_sfu
+        Solar radio flux at 10.7 cm, on which the airglow depends. 60 to 300. 70 at the Sun's minimum, 130 on average,
+        200 at its maximum. [solar flux units]
+    zenith_brightness
+        Brightness of the moonless zenith over a lit country, natural light (22.0) included. 15 to 22; by default no
+        artificial light. [mag arcsec-2]
+    bortle
+        The same as a class of light pollution on Bortle's scale: 1 is as dark as it gets, 9 an inner city. 1 to 9; by
+        default no artificial light.
+    led_share
+        Share of the artificial light that comes from white LEDs; the rest is that of sodium lamps. 0 to 1.
+    """
+
+    def __new__(
+        cls,
+        *,
+        when: _When = "auto",
         star_limit: float = 8.5,
         solar_flux_sfu: float = 130.0,
         zenith_brightness: float | None = None,
@@ -646,28 +713,29 @@ class Night:
     ) -> Night: ...
 
     @property
-    def when(self) -> Literal["auto", "always", "never"]:
-        """When the lights of the night are in the sky: "auto", "always" or "never"."""
+    def when(self) -> _When:
+        """When Moon, stars and the other lights of the night are in the sky."""
 
     @property
     def star_limit(self) -> float:
-        """Stars to this magnitude V are drawn one by one."""
+        """Stars to this magnitude are drawn one by one. [V]"""
 
     @property
     def solar_flux_sfu(self) -> float:
-        """Solar radio flux at 10.7 cm. [solar flux units]"""
+        """Solar radio flux at 10.7 cm, on which the airglow depends. [solar flux units]"""
 
     @property
     def zenith_brightness(self) -> float | None:
-        """Brightness of the zenith with artificial light; None if it was not given. [mag arcsec-2]"""
+        """Brightness of the moonless zenith over a lit country, natural light (22.0) included; None: no artificial light. [mag arcsec-2]"""
 
     @property
     def bortle(self) -> int | None:
-        """Class of Bortle's scale; None if it was not given."""
+        """The same as a class of light pollution on Bortle's scale: 1 is as dark as it gets, 9 an inner city; None: no artificial light."""
 
     @property
     def led_share(self) -> float:
-        """Share of the artificial light that comes from white LEDs."""
+        """Share of the artificial light that comes from white LEDs; the rest is that of sodium lamps."""
+    # Until here.
 
 @final
 class Scene:
@@ -802,7 +870,7 @@ class Sky:
         atmosphere: Atmosphere | None = None,
         elevation_m: float = 0.0,
         zone: str | None = None,
-        sun_model: Literal["iau", "thesis"] = "iau",
+        sun_model: _SunModel = "iau",
         model: _Model = "scattering",
         night: Night | None = None,
     ) -> Sky: ...
@@ -1014,7 +1082,7 @@ class Sky:
         *,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
-        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        gamut: _Gamut = "desaturate",
         progress: _Progress | None = None,
     ) -> tuple[float, float, float]:
         """Irradiance of the Sun's disc, at a total eclipse of its corona, on a plane that faces it, in the units of a probe with this scale and colour space times sr.
@@ -1028,27 +1096,28 @@ class Sky:
         *,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
-        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        gamut: _Gamut = "desaturate",
         progress: _Progress | None = None,
     ) -> tuple[float, float, float]:
         """Irradiance of the Moon's disc on a plane that faces it, as ``sun_irradiance_rgb``; zeros if the Moon is below the horizon or the night is never
         shown.
         """
 
+    # Made by `skyprobe schema --format python-stub`: Sky.render
     def render(
         self,
         *,
         width: int = 2048,
-        projection: Literal["latlong", "fisheye"] = "latlong",
-        rows: Literal["centre", "corner"] = "centre",
-        extent: Literal["full", "upper"] = "full",
+        projection: _Projection = "latlong",
+        rows: _Rows = "centre",
+        extent: _Extent = "full",
         turn_deg: float = 0.0,
-        ground: Literal["on", "off", "mirrored"] = "on",
+        ground: _ProbeGround = "on",
         sun_disc: bool = True,
         moon_disc: bool = True,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
-        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        gamut: _Gamut = "desaturate",
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
         layers: Mapping[str, float] | None = None,
@@ -1059,65 +1128,72 @@ class Sky:
         Parameters
         ----------
         width
-            Even, 64 to 16384; the height follows. [pixels]
+            Width of the picture, an even number. 64 to 16384. The height follows: half of it for a full latitude-longitude
+            picture, a quarter for its upper half, the same for a fisheye. [pixels]
         projection
-            "latlong", or "fisheye" with the zenith in the centre.
+            How directions are laid out. "latlong" or "fisheye". A fisheye has the zenith in its centre.
         rows
-            "centre" (Blender and most viewers), or "corner" for Mitsuba: first and last row on the poles.
+            Where the rows of a latitude-longitude picture lie. "centre" or "corner". centre is for Blender and most
+            viewers, corner for Mitsuba: first and last row on the poles.
         extent
-            The "full" sphere or the "upper" half.
+            The full sphere, or its upper half. "full" or "upper".
         turn_deg
-            How far the sky in the picture is turned clockwise as seen from above, -360 to 360: to the right, by ``turn_deg / 360`` of the width. [degrees]
+            How far the sky in the picture is turned clockwise as seen from above, to the right. -360 to 360. In a
+            latitude-longitude picture by turn / 360 of its width. [degrees]
         ground
-            What is seen below the horizon: "on", "off" (black) or "mirrored".
+            What is seen below the horizon: the lit ground, black, or the sky again. "on", "off" or "mirrored".
         sun_disc
-            Whether the Sun's disc is drawn, with its exact energy at every width.
+            Draw the Sun's disc. With its exact energy at every width; left out to light the scene with a Sun lamp.
         moon_disc
-            Whether the Moon's disc is drawn.
+            Draw the Moon's disc; planets and stars always are. Left out to light the scene with a lamp for it.
         scale
-            What 1.0 means: "blender" (luminance / 683), "mitsuba" (mean W m-2 sr-1 nm-1) or "luminance" (cd m-2).
+            What the number 1.0 in a pixel stands for. "blender", "mitsuba" or "luminance". blender: luminance / 683;
+            mitsuba: mean W m-2 sr-1 nm-1; luminance: cd m-2.
         color_space
-            "lin_rec709", "acescg", "lin_rec2020" or "xyz"; always linear.
+            Colour space of the pixels, always linear. "lin_rec709", "acescg", "lin_rec2020" or "xyz".
         gamut
-            What happens to a colour outside the space: "desaturate" towards the grey of its luminance, "clip" negative values, or
-            "keep" them.
+            What becomes of colours outside that space. "desaturate", "clip" or "keep". desaturate: towards the grey of
+            their luminance. clip: negative numbers become 0. keep: they stay negative.
         polarising_filter
             What is held before the sky.
         tolerance
-            Relative error that interpolated directions may have, 0.0001 to 0.5: light is gathered in as many directions as that needs. None: in as
-            many as the quality says.
+            Relative error that interpolated directions may have. 0.0001 to 0.5; by default as many directions as the
+            quality says.
         layers
-            Factors on the light of layers by their names, 0 (left out) to 1e9, such as ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
+            Factors on the light of layers, 0 to leave one out, as in stars=2. 0 to 1000000000 for each, such as
+            ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
         progress
             Called with stage and fraction; returning False raises Cancelled.
         """
+    # Until here.
 
+    # Made by `skyprobe schema --format python-stub`: Sky.render_to_file
     def render_to_file(
         self,
         path: str | os.PathLike[str],
         *,
         width: int = 2048,
-        projection: Literal["latlong", "fisheye"] = "latlong",
-        rows: Literal["centre", "corner"] = "centre",
-        extent: Literal["full", "upper"] = "full",
+        projection: _Projection = "latlong",
+        rows: _Rows = "centre",
+        extent: _Extent = "full",
         turn_deg: float = 0.0,
-        ground: Literal["on", "off", "mirrored"] = "on",
+        ground: _ProbeGround = "on",
         sun_disc: bool = True,
         moon_disc: bool = True,
         scale: _Scale = "blender",
         color_space: _ColorSpace = "lin_rec709",
-        gamut: Literal["desaturate", "clip", "keep"] = "desaturate",
+        gamut: _Gamut = "desaturate",
         polarising_filter: PolarisingFilter | None = None,
         tolerance: float | None = None,
         layers: Mapping[str, float] | None = None,
         separate_layers: bool = False,
-        half: bool | Literal["off", "refuse", "scale"] | None = None,
+        half: bool | _Half | None = None,
         exposure_stops: float = 0.0,
         operator: _Operator = "sky",
         progress: _Progress | None = None,
     ) -> None:
-        """Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
-        as a whole (but for a PNG).
+        """Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``,
+        without ever being in memory as a whole (but for a PNG).
 
         Parameters
         ----------
@@ -1132,6 +1208,7 @@ class Sky:
         progress
             Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
         """
+    # Until here.
 
     def sample_map(
         self,
@@ -1168,54 +1245,61 @@ class Probe:
         """The scene that makes this probe again; None if its air was given as a profile."""
 
     @property
-    def width(self) -> int:
-        """Width. [pixels]"""
-
-    @property
     def height(self) -> int:
         """Height. [pixels]"""
 
+    # Made by `skyprobe schema --format python-stub`: Probe
     @property
-    def projection(self) -> str:
-        """As asked for in ``Sky.render``."""
+    def width(self) -> int:
+        """Width of the picture, an even number. [pixels]"""
 
     @property
-    def rows(self) -> str:
-        """As asked for in ``Sky.render``."""
+    def projection(self) -> _Projection:
+        """How directions are laid out."""
 
     @property
-    def extent(self) -> str:
-        """As asked for in ``Sky.render``."""
+    def rows(self) -> _Rows:
+        """Where the rows of a latitude-longitude picture lie."""
+
+    @property
+    def extent(self) -> _Extent:
+        """The full sphere, or its upper half."""
 
     @property
     def turn_deg(self) -> float:
-        """As asked for in ``Sky.render``. [degrees]"""
+        """How far the sky in the picture is turned clockwise as seen from above, to the right. [degrees]"""
 
     @property
-    def ground(self) -> str:
-        """As asked for in ``Sky.render``."""
+    def ground(self) -> _ProbeGround:
+        """What is seen below the horizon: the lit ground, black, or the sky again."""
 
     @property
     def sun_disc(self) -> bool:
-        """As asked for in ``Sky.render``."""
+        """Draw the Sun's disc."""
 
     @property
     def moon_disc(self) -> bool:
-        """As asked for in ``Sky.render``."""
+        """Draw the Moon's disc; planets and stars always are."""
 
     @property
-    def scale(self) -> str:
-        """As asked for in ``Sky.render``."""
+    def scale(self) -> _Scale:
+        """What the number 1.0 in a pixel stands for."""
 
     @property
-    def color_space(self) -> str:
-        """As asked for in ``Sky.render``."""
+    def color_space(self) -> _ColorSpace:
+        """Colour space of the pixels, always linear."""
 
+    @property
+    def gamut(self) -> _Gamut:
+        """What becomes of colours outside that space."""
+    # Until here.
+
+    # Made by `skyprobe schema --format python-stub`: Probe.save
     def save(
         self,
         path: str | os.PathLike[str],
         *,
-        half: bool | Literal["off", "refuse", "scale"] | None = None,
+        half: bool | _Half | None = None,
         exposure_stops: float = 0.0,
         operator: _Operator = "sky",
         progress: _Progress | None = None,
@@ -1227,15 +1311,17 @@ class Probe:
         path
             Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
         half
-            EXR with half floats, which end at 65504. True or "refuse": a brighter pixel, such as the Sun's disc, is an InputError;
-            "scale": all pixels are multiplied by a power of two, which the header states.
+            EXR with half floats, which end at 65504. True or "refuse": a brighter pixel, such as the Sun's disc, is an
+            InputError; "scale": all pixels are multiplied by a power of two, which the header states.
         exposure_stops
-            Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
+            Exposure of PNG files relative to the automatic one. -20 to 20. [stops]
         operator
-            Tone mapping operator of a PNG, as in ``skyprobe.post.tone_map``.
+            Tone mapping operator of PNG files. "sky", "filmic", "aces", "exposure", "reinhard", "reinhard_local",
+            "ashikhmin", "logarithmic" or "linear". More choices: skyprobe tonemap, on an EXR or HDR file.
         progress
-            Called with stage and fraction; returning False raises Cancelled, and there is no file.
+            Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
         """
+    # Until here.
 
     @overload
     def irradiance(self, normal: None = None) -> tuple[float, float, float]: ...

@@ -2,6 +2,7 @@
 
 use super::aerosol::AerosolType;
 use super::ground::Ground;
+use super::parameters::AirParameters;
 use super::phase_function::PhaseFunction;
 use super::standard_atmosphere::StandardAtmosphere;
 use serde::Serialize;
@@ -19,26 +20,19 @@ pub struct Air {
     pub turbidity: f64,
     /// The same as visibility at the ground [km].
     pub visibility_km: f64,
-    /// Exponent that replaces the aerosol's own spectral extinction.
-    pub angstrom_exponent: Option<f64>,
-    /// Albedo that replaces the aerosol's own.
-    pub single_scattering_albedo: Option<f64>,
     /// Asymmetry parameter, by default that of the aerosol at 550 nm.
     pub asymmetry: f64,
     /// How the aerosol scatters.
     pub phase_function: PhaseFunction,
     /// Scale height of the aerosol, depth of a layer of fog [km].
     pub aerosol_scale_height_km: f64,
-    /// Vertical optical depth of the stratospheric aerosol at 550 nm.
-    pub stratospheric_aod550: f64,
-    /// Altitude of its middle [km].
-    pub stratospheric_altitude_km: f64,
-    /// Ozone column [Dobson units].
-    pub ozone_du: f64,
     /// Temperature and density profile.
     pub standard_atmosphere: StandardAtmosphere,
     /// Pressure at the ground [hPa].
     pub surface_pressure_hpa: f64,
     /// The ground.
     pub ground: Ground,
+    /// What was given and what the preset fills in, without the amount of aerosol. A parameter that follows from no other is read here, by the physics that it
+    /// belongs to, which knows what is usual.
+    pub filled: AirParameters,
 }

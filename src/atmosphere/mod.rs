@@ -18,7 +18,9 @@ pub mod phase;
 pub mod phase_function;
 pub mod phase_table;
 pub mod preset;
+mod presets;
 pub mod profile;
+mod resolve;
 pub mod size_distribution;
 pub mod standard_atmosphere;
 

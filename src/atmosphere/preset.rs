@@ -1,8 +1,5 @@
-//! Named states of the air: rows of plain numbers that a user starts from.
+//! Named states of the air that a user starts from.
 
-use super::aerosol::AerosolType;
-use super::ground::Surface;
-use super::standard_atmosphere::StandardAtmosphere;
 use crate::words::words;
 use serde::{Deserialize, Serialize};
 
@@ -48,63 +45,3 @@ words!(Preset, "preset", {
     Volcanic => "volcanic",
     Thesis => "thesis",
 });
-
-/// How much aerosol a preset has.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Amount {
-    /// Vertical optical depth of the aerosol at 550 nm.
-    OpticalDepth(f64),
-    /// Vertical optical depth of aerosol and molecules divided by that of the molecules, at 550 nm.
-    Turbidity(f64),
-    /// Horizontal visibility at the ground [km].
-    VisibilityKm(f64),
-}
-
-/// What a preset fills in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Defaults {
-    /// Kind of aerosol.
-    pub aerosol: AerosolType,
-    /// Amount of aerosol.
-    pub amount: Amount,
-    /// Vertical optical depth of the stratospheric aerosol at 550 nm.
-    pub stratospheric_aod550: f64,
-    /// Ozone column [Dobson units].
-    pub ozone_du: f64,
-    /// Temperature and density.
-    pub standard_atmosphere: StandardAtmosphere,
-    /// Ground.
-    pub ground: Surface,
-}
-
-impl Preset {
-    /// The numbers of this preset.
-    pub fn defaults(self) -> Defaults {
-        let row = |aerosol, optical_depth, ground| Defaults {
-            aerosol,
-            amount: Amount::OpticalDepth(optical_depth),
-            stratospheric_aod550: 0.0,
-            ozone_du: 300.0,
-            standard_atmosphere: StandardAtmosphere::UsStandard1976,
-            ground,
-        };
-        match self {
-            Self::Clear => row(AerosolType::ContinentalClean, 0.1, Surface::Grass),
-            Self::Pure => row(AerosolType::None, 0.0, Surface::Grass),
-            Self::Hazy => row(AerosolType::ContinentalAverage, 0.35, Surface::Grass),
-            Self::Polluted => row(AerosolType::ContinentalPolluted, 0.5, Surface::Grass),
-            Self::Urban => row(AerosolType::Urban, 0.4, Surface::City),
-            Self::Maritime => row(AerosolType::MaritimeClean, 0.1, Surface::Sea),
-            Self::Desert => row(AerosolType::Desert, 0.3, Surface::Desert),
-            Self::Antarctic => Defaults {
-                standard_atmosphere: StandardAtmosphere::SubarcticWinter,
-                ..row(AerosolType::Antarctic, 0.03, Surface::Snow)
-            },
-            Self::Fog => row(AerosolType::Fog, 5.0, Surface::Grass),
-            Self::Volcanic => Defaults { stratospheric_aod550: 0.1, ..row(AerosolType::ContinentalClean, 0.1, Surface::Grass) },
-            Self::Thesis => {
-                Defaults { amount: Amount::Turbidity(2.0), ozone_du: 0.0, ..row(AerosolType::Thesis, 0.0, Surface::Grass) }
-            }
-        }
-    }
-}

@@ -66,8 +66,10 @@ pub(super) fn optical_profile(air: &Air, wavelengths_nm: &[f64]) -> Result<Optic
         ozone_component(air, &altitudes_km, wavelengths_nm),
         aerosol_component(air, &altitudes_km, wavelengths_nm),
     ];
-    if air.stratospheric_aod550 > 0.0 {
-        components.push(stratospheric_component(air, &altitudes_km, wavelengths_nm));
+    let volcanic = air.filled.stratospheric_aod550.unwrap_or(0.0);
+    if volcanic > 0.0 {
+        let altitude_km = air.filled.stratospheric_altitude_km.unwrap_or(20.0);
+        components.push(stratospheric_component(volcanic, altitude_km, &altitudes_km, wavelengths_nm));
     }
     let profile = OpticalProfile {
         components,
@@ -98,7 +100,7 @@ fn molecules_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) 
 
 fn ozone_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) -> Component {
     let shape = unit_column(altitudes_km, |z| air.standard_atmosphere.ozone_per_m3(z));
-    let depths = ozone::optical_depth(wavelengths_nm, air.ozone_du);
+    let depths = ozone::optical_depth(wavelengths_nm, air.filled.ozone_du.unwrap_or(300.0));
     Component {
         name: "ozone".into(),
         scattering_per_km: vec![0.0; shape.len() * depths.len()],
@@ -112,8 +114,8 @@ fn aerosol_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) ->
     let spectrum = air.aerosol.spectrum(air.relative_humidity);
     let (scattering, absorption) = depths(wavelengths_nm, |wavelength| {
         let AerosolOptics { relative_extinction, single_scattering_albedo, .. } = spectrum.at(wavelength);
-        let relative = air.angstrom_exponent.map_or(relative_extinction, |exponent| angstrom(wavelength, exponent));
-        (air.aod550 * relative, air.single_scattering_albedo.unwrap_or(single_scattering_albedo))
+        let relative = air.filled.angstrom_exponent.map_or(relative_extinction, |exponent| angstrom(wavelength, exponent));
+        (air.aod550 * relative, air.filled.single_scattering_albedo.unwrap_or(single_scattering_albedo))
     });
     let phase = match air.phase_function {
         PhaseFunction::Mie => {
@@ -131,14 +133,13 @@ fn aerosol_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) ->
     }
 }
 
-fn stratospheric_component(air: &Air, altitudes_km: &[f64], wavelengths_nm: &[f64]) -> Component {
-    let shape =
-        unit_column(altitudes_km, |z| (-0.5 * ((z - air.stratospheric_altitude_km) / STRATOSPHERIC_WIDTH_KM).powi(2)).exp());
+fn stratospheric_component(aod550: f64, altitude_km: f64, altitudes_km: &[f64], wavelengths_nm: &[f64]) -> Component {
+    let shape = unit_column(altitudes_km, |z| (-0.5 * ((z - altitude_km) / STRATOSPHERIC_WIDTH_KM).powi(2)).exp());
     let droplets = Mixture::new(&[(Particle::VolcanicSulphate, 1.0)], 0.0);
     let spectrum = AerosolSpectrum::new(&droplets);
     let (scattering, absorption) = depths(wavelengths_nm, |wavelength| {
         let optics = spectrum.at(wavelength);
-        (air.stratospheric_aod550 * optics.relative_extinction, optics.single_scattering_albedo)
+        (aod550 * optics.relative_extinction, optics.single_scattering_albedo)
     });
     Component {
         name: "stratospheric_aerosol".into(),

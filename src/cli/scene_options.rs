@@ -2,7 +2,7 @@
 
 use super::complain;
 use crate::error::{Error, Result};
-use crate::parameter::{Checked, CommandOption, DefaultValue, Kind, Parameter};
+use crate::parameter::{Checked, CommandOption, Kind, Parameter};
 use crate::scene::{AIR, FILE, IMAGE, NIGHT, PLACE_AND_TIME, Scene, Section};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
 use serde_json::{Map, Value};
@@ -158,10 +158,7 @@ fn args(row: &'static Parameter, option: &'static CommandOption) -> Vec<Arg> {
     let arg = match row.kind {
         Kind::Flag => {
             let arg = arg.action(ArgAction::SetTrue);
-            if row.default != DefaultValue::Value("true") {
-                return vec![arg];
-            }
-            let off = negative(option);
+            let Some(off) = option.off else { return vec![arg] };
             let opposite = format!("The opposite of --{}, which is the default. {}", option.name, row.more);
             let not = Arg::new(off).long(off).help(opposite.trim_end().to_owned());
             return vec![arg.overrides_with(off), not.action(ArgAction::SetTrue).overrides_with(option.name)];
@@ -173,16 +170,6 @@ fn args(row: &'static Parameter, option: &'static CommandOption) -> Vec<Arg> {
         _ => arg,
     };
     vec![special(arg.value_name(option.value), option.name)]
-}
-
-/// `--no-x` for `--x`.
-fn negative(option: &CommandOption) -> &'static str {
-    match option.name {
-        "polarisation" => "no-polarisation",
-        "sun-disc" => "no-sun-disc",
-        "moon-disc" => "no-moon-disc",
-        other => other,
-    }
 }
 
 /// What some options have beyond their row.
@@ -256,8 +243,7 @@ fn value_of(matches: &ArgMatches, row: &Parameter, option: &CommandOption) -> Re
             }
         },
         Kind::Flag => {
-            let off = negative(option);
-            let is_off = off != option.name && matches.get_flag(off);
+            let is_off = option.off.is_some_and(|off| matches.get_flag(off));
             (matches.get_flag(option.name) || is_off).then_some(Value::Bool(!is_off))
         }
         Kind::WordsOrNumber { .. } => match matches.get_one::<String>(option.name) {

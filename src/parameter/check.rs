@@ -9,6 +9,14 @@ pub(crate) trait Checked {
     /// # Errors
     /// [`Error::Input`] that names the parameter `name`, the value and the range of `row`.
     fn check(&self, row: &Parameter, name: &str) -> Result<()>;
+
+    /// This value, or `usual` where nothing was given.
+    fn or_usual(self, _usual: Self) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
 }
 
 impl Checked for f64 {
@@ -42,6 +50,10 @@ whole!(u8, usize, i64);
 impl<T: Checked> Checked for Option<T> {
     fn check(&self, row: &Parameter, name: &str) -> Result<()> {
         self.as_ref().map_or(Ok(()), |value| value.check(row, name))
+    }
+
+    fn or_usual(self, usual: Self) -> Self {
+        self.or(usual)
     }
 }
 

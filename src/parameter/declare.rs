@@ -2,8 +2,8 @@
 
 /// Declares a struct whose fields are parameters: name, type, value where it is left out, row of the table. The first line of a field's documentation is its help.
 ///
-/// It gets `Default`, the conversions of serde (unknown keys are errors, what is left out has its default), the rows as `PARAMETERS`, and `check_ranges`, which
-/// judges each field by its row.
+/// It gets `Default`, the conversions of serde (unknown keys are errors, what is left out has its default), the rows as `PARAMETERS`, `check_ranges`, which
+/// judges each field by its row, and `or`, which fills in what is left out.
 macro_rules! parameters {
     (
         $(#[$attribute:meta])*
@@ -40,6 +40,12 @@ macro_rules! parameters {
                 use $crate::parameter::row::*;
                 [$($row.named($table, stringify!($field), $crate::parameter::first_line(&[$($help),+]))),+]
             };
+
+            /// The same with the values of `usual` where none is given.
+            #[allow(dead_code, reason = "not every struct has presets")]
+            pub(crate) fn or(self, usual: Self) -> Self {
+                Self { $($field: $crate::parameter::Checked::or_usual(self.$field, usual.$field)),+ }
+            }
 
             /// Judges each value by its row.
             ///

@@ -50,14 +50,15 @@ parameters! {
         /// What stands at an azimuth is drawn where azimuth + turn would be, in a latitude-longitude picture turn / 360 of the width further right. Directions, such as the
         /// Sun's azimuth, stay those of the world.
         #[serde(skip_serializing_if = "is_zero")]
-        turn_deg: f64 = 0.0 => number(-360.0, 360.0, "degrees").default("0.0").option("turn", "DEG");
+        turn_deg: f64 = 0.0 => number(-360.0, 360.0, "degrees").default("0.0").option("turn", "DEG")
+            .more("In a latitude-longitude picture by turn / 360 of its width.");
         /// What is seen below the horizon: the lit ground, black, or the sky again.
         ground: GroundView = GroundView::default() => words(GroundView::WORDS).default("\"on\"").option("ground-view", "NAME");
         /// Draw the Sun's disc.
-        sun_disc: bool = true => flag().default("true").option("sun-disc", "")
-            .more("Left out to light the scene with a Sun lamp.");
+        sun_disc: bool = true => flag().default("true").option("sun-disc", "").off("no-sun-disc")
+            .more("With its exact energy at every width; left out to light the scene with a Sun lamp.");
         /// Draw the Moon's disc; planets and stars always are.
-        moon_disc: bool = true => flag().default("true").option("moon-disc", "")
+        moon_disc: bool = true => flag().default("true").option("moon-disc", "").off("no-moon-disc")
             .more("Left out to light the scene with a lamp for it.");
         /// What the number 1.0 in a pixel stands for.
         scale: Scale = Scale::default() => words(Scale::WORDS).default("\"blender\"").option("scale", "NAME")
@@ -66,7 +67,7 @@ parameters! {
         color_space: ColorSpace = ColorSpace::default() => words(ColorSpace::WORDS).default("\"lin_rec709\"").option("color-space", "NAME");
         /// What becomes of colours outside that space.
         gamut: Gamut = Gamut::default() => words(Gamut::WORDS).default("\"desaturate\"").option("gamut", "NAME")
-            .more("keep leaves them as negative numbers.");
+            .more("desaturate: towards the grey of their luminance. clip: negative numbers become 0. keep: they stay negative.");
     }
 }
 

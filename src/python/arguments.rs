@@ -2,51 +2,12 @@
 
 use super::arrays;
 use super::errors::InputError;
-use crate::error::check_range;
-use crate::probe::{self, ProbeSettings};
-use crate::sky::{Layer, LayerScales};
 use glam::DVec3;
 use pyo3::prelude::*;
-use pyo3::types::{PyMapping, PyString};
+use pyo3::types::PyString;
 
 /// Largest departure of a direction's length from 1: what single precision leaves, with room.
 const UNIT_TOLERANCE: f64 = 1e-4;
-
-/// Factors by the names of layers.
-pub fn layer_scales(layers: &Bound<'_, PyMapping>) -> PyResult<LayerScales> {
-    let factor = |item: Bound<'_, PyAny>| {
-        let (name, factor): (String, f64) = item.extract()?;
-        Ok((name.parse::<Layer>()?, factor))
-    };
-    Ok(LayerScales(layers.items()?.iter().map(factor).collect::<PyResult<_>>()?))
-}
-
-/// The settings that names and numbers ask for: (projection, rows, extent, ground), (sun_disc, moon_disc), (scale, color_space, gamut).
-pub fn probe_settings(
-    width: i64,
-    layout: [&str; 4],
-    turn_deg: f64,
-    discs: [bool; 2],
-    colour: [&str; 3],
-) -> PyResult<ProbeSettings> {
-    let ([projection, rows, extent, ground], [sun_disc, moon_disc], [scale, color_space, gamut]) = (layout, discs, colour);
-    let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
-    let settings = ProbeSettings {
-        width: check_range("width", width as f64, low, high, "pixels")? as usize,
-        projection: projection.parse()?,
-        rows: rows.parse()?,
-        extent: extent.parse()?,
-        turn_deg,
-        ground: ground.parse()?,
-        sun_disc,
-        moon_disc,
-        scale: scale.parse()?,
-        color_space: color_space.parse()?,
-        gamut: gamut.parse()?,
-    };
-    settings.validate()?;
-    Ok(settings)
-}
 
 /// A time as text: a `str` as it is, an aware `datetime` or a `date` in ISO 8601.
 pub fn time_text(time: &Bound<'_, PyAny>) -> PyResult<String> {

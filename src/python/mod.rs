@@ -1,17 +1,22 @@
 //! The extension module `skyprobe._core`: arguments in, results out, no physics.
 //!
 //! The docstrings that a Python user reads are those of `python/skyprobe/_core.pyi` and of the classes' members here; names, units
-//! and defaults are the same on both sides, which the tests check.
+//! and defaults are the same on both sides, which the tests check. Calls that take parameters by name have theirs, and their signatures,
+//! from the table of parameters: `docstrings` is made from it.
 
 mod air;
 mod arguments;
 mod arrays;
 mod bodies;
+mod components;
+mod docstrings;
 mod errors;
 mod filter;
 mod fork;
+mod keywords;
 mod night;
 mod pickle;
+mod pictures;
 mod place_results;
 mod places;
 mod post;
@@ -23,6 +28,8 @@ mod tone;
 mod values;
 mod work;
 
+use crate::probe::ProbeSettings;
+use crate::sky::{NightOptions, PolarisingFilter};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -39,13 +46,20 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SunlightOnlyWarning", py.get_type::<errors::SunlightOnlyWarning>())?;
     module.add("TimeWarning", py.get_type::<errors::TimeWarning>())?;
     module.add_class::<air::Atmosphere>()?;
-    module.add_class::<air::Component>()?;
-    module.add_class::<air::Phase>()?;
+    module.add_class::<components::Component>()?;
+    module.add_class::<components::Phase>()?;
     module.add_class::<filter::PolarisingFilter>()?;
     module.add_class::<night::Night>()?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<sky::Sky>()?;
     module.add_class::<probe::Probe>()?;
+    keywords::show(&py.get_type::<night::Night>(), NightOptions::PARAMETERS, |night: &night::Night| &night.inner)?;
+    keywords::show(
+        &py.get_type::<filter::PolarisingFilter>(),
+        PolarisingFilter::PARAMETERS,
+        |filter: &filter::PolarisingFilter| &filter.inner,
+    )?;
+    keywords::show(&py.get_type::<probe::Probe>(), ProbeSettings::PARAMETERS, |probe: &probe::Probe| &probe.settings)?;
     module.add_class::<bodies::Body>()?;
     module.add_class::<bodies::Moon>()?;
     module.add_class::<bodies::RiseAndSet>()?;

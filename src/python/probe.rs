@@ -1,24 +1,28 @@
 //! `Probe`.
 
 use super::arguments::vectors;
+use super::docstrings::docstring;
 use super::errors::InputError;
+use super::keywords::Keywords;
 use super::pickle::Reduced;
+use super::pictures::file_options;
 use super::scene::Scene;
 use super::work;
 use crate::error::Result;
-use crate::io::{self, FileOptions, Half, Metadata};
+use crate::io::{self, Half, Metadata};
 use crate::probe::{self, ProbeSettings};
-use crate::scene;
+use crate::scene::{self, calls};
 use glam::DVec3;
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A rendered image of the light from all directions.
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Probe {
-    settings: ProbeSettings,
+    pub settings: ProbeSettings,
     metadata: Metadata,
     pixels: Mutex<Pixels>,
 }
@@ -77,104 +81,24 @@ impl Probe {
         Ok(scene.map(|inner| Scene { inner }))
     }
 
-    /// Width. [pixels]
-    #[getter]
-    fn width(&self) -> usize {
-        self.settings.width
-    }
-
     /// Height. [pixels]
     #[getter]
     fn height(&self) -> usize {
         self.settings.height()
     }
 
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn projection(&self) -> &'static str {
-        self.settings.projection.name()
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn rows(&self) -> &'static str {
-        self.settings.rows.name()
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn extent(&self) -> &'static str {
-        self.settings.extent.name()
-    }
-
-    /// As asked for in ``Sky.render``. [degrees]
-    #[getter]
-    fn turn_deg(&self) -> f64 {
-        self.settings.turn_deg
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn ground(&self) -> &'static str {
-        self.settings.ground.name()
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn sun_disc(&self) -> bool {
-        self.settings.sun_disc
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn moon_disc(&self) -> bool {
-        self.settings.moon_disc
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn scale(&self) -> &'static str {
-        self.settings.scale.name()
-    }
-
-    /// As asked for in ``Sky.render``.
-    #[getter]
-    fn color_space(&self) -> &'static str {
-        self.settings.color_space.name()
-    }
-
-    /// Write the probe; the file appears whole or not at all.
-    ///
-    /// Parameters
-    /// ----------
-    /// path
-    ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-    /// half
-    ///     EXR with half floats, which end at 65504. True or "refuse": a brighter pixel, such as the Sun's disc, is an InputError;
-    ///     "scale": all pixels are multiplied by a power of two, which the header states.
-    /// exposure_stops
-    ///     Exposure of a PNG relative to the automatic one, -20 to 20. [stops]
-    /// operator
-    ///     Tone mapping operator of a PNG, as in ``skyprobe.post.tone_map``.
-    /// progress
-    ///     Called with stage and fraction; returning False raises Cancelled, and there is no file.
-    #[pyo3(signature = (path, *, half = None, exposure_stops = 0.0, operator = "sky", progress = None))]
+    #[doc = docstring!(Probe.save)]
+    #[pyo3(signature = (path, *, half = None, progress = None, **parameters), text_signature = None)]
     fn save(
         &self,
         py: Python<'_>,
         path: PathBuf,
         half: Option<&Bound<'_, PyAny>>,
-        exposure_stops: f64,
-        operator: &str,
         progress: Option<&Bound<'_, PyAny>>,
+        parameters: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
+        let options = file_options(&mut Keywords::read(&calls::SAVE, parameters)?, half)?;
         let probe = self.snapshot(py)?;
-        let options = FileOptions {
-            half: half.map_or(Ok(Half::Off), read_half)?,
-            exposure_stops,
-            operator: operator.parse()?,
-            layers: false,
-        };
         work::run(py, progress, |progress| io::save_with_progress(&path, &probe, (&options, &self.metadata), progress))
     }
 
@@ -220,8 +144,8 @@ impl Probe {
     }
 
     fn __repr__(&self) -> String {
-        let (width, height) = (self.width(), self.height());
-        format!("<Probe: {width} x {height}, {}, {}, {}>", self.projection(), self.scale(), self.color_space())
+        let ProbeSettings { width, projection, scale, color_space, .. } = &self.settings;
+        format!("<Probe: {width} x {}, {projection}, {scale}, {color_space}>", self.height())
     }
 }
 

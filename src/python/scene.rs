@@ -10,14 +10,12 @@ use crate::io::{check_output, write_atomically};
 use crate::probe;
 use crate::progress::Progress;
 use crate::scene;
-use crate::sky::Cache;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use serde_json::{Map, Value};
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// All that a probe is made from: place and time or a Sun that is put, air, night, picture and files. It reads and writes the configurations of the command line, and what
 /// the headers of pictures hold.
@@ -121,8 +119,7 @@ impl Scene {
     #[pyo3(signature = (*, cache = true))]
     fn atmosphere(&self, cache: bool) -> PyResult<Atmosphere> {
         fork::check()?;
-        let air = self.inner.atmosphere()?.with_cache(if cache { Cache::of_user() } else { None });
-        Ok(Atmosphere { inner: Arc::new(air) })
+        Ok(Atmosphere::with(self.inner.atmosphere()?, cache))
     }
 
     /// The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.

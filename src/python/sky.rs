@@ -1,27 +1,26 @@
 //! `Sky`.
 
 use super::air::Atmosphere;
-use super::arguments::{layer_scales, probe_settings, time_text, unit_vectors};
+use super::arguments::{time_text, unit_vectors};
 use super::arrays;
 use super::bodies::{Body, LunarEclipse, Moon, RiseAndSet, SolarEclipse};
+use super::docstrings::docstring;
 use super::errors::{InputError, SunlightOnlyWarning, TimeWarning};
 use super::filter::PolarisingFilter;
 use super::night::Night;
 use super::pickle::{self, Reduced};
-use super::probe::{Probe, read_half};
+use super::probe::Probe;
 use super::results::{Illuminance, Irradiance, SunEvents, datetime};
 use super::scene::Scene;
-use super::{fork, work};
+use super::{fork, pictures, work};
 use crate::ephemeris::{self, Place, SunModel, next_moon_phases};
-use crate::error::check_range;
-use crate::io::{FileOptions, Format, Half, SampleMap, check_output, render_to_files};
-use crate::probe::{self, ProbeSettings};
-use crate::scene::{self, describe, time_at};
+use crate::probe::ProbeSettings;
+use crate::scene::{self, time_at};
 use crate::sky::{self, Layer, LightOptions, Model};
 use crate::time::Time;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyMapping};
+use pyo3::types::PyDict;
 use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -56,8 +55,8 @@ use std::sync::Arc;
 pub struct Sky {
     pub inner: Arc<sky::Sky>,
     air: Py<Atmosphere>,
-    sun_model: SunModel,
-    model: Model,
+    pub sun_model: SunModel,
+    pub model: Model,
 }
 
 #[pymethods]
@@ -442,145 +441,34 @@ impl Sky {
         Ok(rgb.into())
     }
 
-    /// An image of the light from all directions.
-    ///
-    /// Parameters
-    /// ----------
-    /// width
-    ///     Even, 64 to 16384; the height follows. [pixels]
-    /// projection
-    ///     "latlong", or "fisheye" with the zenith in the centre.
-    /// rows
-    ///     "centre" (Blender and most viewers), or "corner" for Mitsuba: first and last row on the poles.
-    /// extent
-    ///     The "full" sphere or the "upper" half.
-    /// turn_deg
-    ///     How far the sky in the picture is turned clockwise as seen from above, -360 to 360: to the right, by ``turn_deg / 360`` of the width. [degrees]
-    /// ground
-    ///     What is seen below the horizon: "on", "off" (black) or "mirrored".
-    /// sun_disc
-    ///     Whether the Sun's disc is drawn, with its exact energy at every width.
-    /// moon_disc
-    ///     Whether the Moon's disc is drawn.
-    /// scale
-    ///     What 1.0 means: "blender" (luminance / 683), "mitsuba" (mean W m-2 sr-1 nm-1) or "luminance" (cd m-2).
-    /// color_space
-    ///     "lin_rec709", "acescg", "lin_rec2020" or "xyz"; always linear.
-    /// gamut
-    ///     What happens to a colour outside the space: "desaturate" towards the grey of its luminance, "clip" negative values, or
-    ///     "keep" them.
-    /// polarising_filter
-    ///     What is held before the sky.
-    /// tolerance
-    ///     Relative error that interpolated directions may have, 0.0001 to 0.5: light is gathered in as many directions as that needs. None: in as
-    ///     many as the quality says.
-    /// layers
-    ///     Factors on the light of layers by their names, 0 (left out) to 1e9, such as ``{"moon": 0.0, "stars": 10.0}``; see ``layer_names``.
-    /// progress
-    ///     Called with stage and fraction; returning False raises Cancelled.
-    #[pyo3(signature = (*, width = 2048, projection = "latlong", rows = "centre", extent = "full", turn_deg = 0.0, ground = "on", sun_disc = true,
-        moon_disc = true, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None,
-        layers = None, progress = None))]
-    #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
+    #[doc = docstring!(Sky.render)]
+    #[pyo3(signature = (*, polarising_filter = None, progress = None, **parameters), text_signature = None)]
     fn render(
         &self,
         py: Python<'_>,
-        width: i64,
-        projection: &str,
-        rows: &str,
-        extent: &str,
-        turn_deg: f64,
-        ground: &str,
-        sun_disc: bool,
-        moon_disc: bool,
-        scale: &str,
-        color_space: &str,
-        gamut: &str,
         polarising_filter: Option<PyRef<'_, PolarisingFilter>>,
-        tolerance: Option<f64>,
-        layers: Option<&Bound<'_, PyMapping>>,
         progress: Option<&Bound<'_, PyAny>>,
+        parameters: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Probe> {
-        let light = self.light_options(polarising_filter, tolerance, layers)?;
-        let settings = probe_settings(
-            width,
-            [projection, rows, extent, ground],
-            turn_deg,
-            [sun_disc, moon_disc],
-            [scale, color_space, gamut],
-        )?;
-        let rendered =
-            work::run(py, progress, |progress| probe::render(&self.inner.light_by(&light, progress)?, &settings, progress))?;
-        Ok(Probe::new(rendered, describe(&self.inner, self.sun_model, &light, &settings)))
+        pictures::render(py, self, polarising_filter.as_ref(), parameters, progress)
     }
 
-    /// Render straight into a file, which appears whole or not at all: the same picture as ``render(...).save(path)``, without ever being in memory
-    /// as a whole (but for a PNG).
-    ///
-    /// Parameters
-    /// ----------
-    /// path
-    ///     Its suffix says the format: .exr (float), .hdr (Radiance RGBE) or .png (tone mapped, to look at).
-    /// width, projection, rows, extent, turn_deg, ground, sun_disc, moon_disc, scale, color_space, gamut, polarising_filter, tolerance, layers
-    ///     As for ``render``.
-    /// separate_layers
-    ///     Whether an EXR file holds each layer beside their sum, in channels such as ``stars.R``.
-    /// half, exposure_stops, operator
-    ///     As for ``Probe.save``.
-    /// progress
-    ///     Called with stage and fraction; returning False raises Cancelled, and no file is left behind.
-    #[pyo3(signature = (path, *, width = 2048, projection = "latlong", rows = "centre", extent = "full", turn_deg = 0.0, ground = "on", sun_disc = true,
-        moon_disc = true, scale = "blender", color_space = "lin_rec709", gamut = "desaturate", polarising_filter = None, tolerance = None, layers = None,
-        separate_layers = false, half = None, exposure_stops = 0.0, operator = "sky", progress = None))]
+    #[doc = docstring!(Sky.render_to_file)]
+    #[pyo3(signature = (path, *, polarising_filter = None, separate_layers = false, half = None, progress = None, **parameters),
+        text_signature = None)]
     #[allow(clippy::too_many_arguments, reason = "keyword arguments")]
     fn render_to_file(
         &self,
         py: Python<'_>,
         path: PathBuf,
-        width: i64,
-        projection: &str,
-        rows: &str,
-        extent: &str,
-        turn_deg: f64,
-        ground: &str,
-        sun_disc: bool,
-        moon_disc: bool,
-        scale: &str,
-        color_space: &str,
-        gamut: &str,
         polarising_filter: Option<PyRef<'_, PolarisingFilter>>,
-        tolerance: Option<f64>,
-        layers: Option<&Bound<'_, PyMapping>>,
         separate_layers: bool,
         half: Option<&Bound<'_, PyAny>>,
-        exposure_stops: f64,
-        operator: &str,
         progress: Option<&Bound<'_, PyAny>>,
+        parameters: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
-        fork::check()?;
-        let light = self.light_options(polarising_filter, tolerance, layers)?;
-        let settings = probe_settings(
-            width,
-            [projection, rows, extent, ground],
-            turn_deg,
-            [sun_disc, moon_disc],
-            [scale, color_space, gamut],
-        )?;
-        let options = FileOptions {
-            half: half.map_or(Ok(Half::Off), read_half)?,
-            exposure_stops,
-            operator: operator.parse()?,
-            layers: separate_layers,
-        };
-        check_range("exposure_stops", exposure_stops, -20.0, 20.0, "stops")?;
-        if separate_layers && Format::of(&path)? != Format::Exr {
-            return Err(InputError::new_err("separate_layers = True: must be False for a file that is not .exr"));
-        }
-        check_output(&path)?;
-        let metadata = describe(&self.inner, self.sun_model, &light, &settings);
-        work::run(py, progress, |progress| {
-            render_to_files(&self.inner.light_by(&light, progress)?, &settings, &[&path], &options, &metadata, progress)
-        })
+        let of_file = (half, separate_layers);
+        pictures::render_to_file(py, self, &path, of_file, polarising_filter.as_ref(), parameters, progress)
     }
 
     /// A picture of the directions in which the light of a probe is gathered, to look at: latitude-longitude, 8-bit sRGB, shape (H, W, 3), white points
@@ -604,20 +492,7 @@ impl Sky {
         tolerance: Option<f64>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let light = self.light_options(polarising_filter, tolerance, None)?;
-        if light.model != Model::Scattering {
-            return Err(InputError::new_err(format!(
-                "model = {:?}: must be \"scattering\" for a sample map",
-                light.model.name()
-            )));
-        }
-        let (low, high) = (probe::MIN_WIDTH as f64, probe::MAX_WIDTH as f64);
-        let width = check_range("width", width as f64, low, high, "pixels")? as usize;
-        let map = work::run(py, progress, |progress| {
-            let dome = self.inner.filtered_light(light.polarising_filter.as_ref(), light.tolerance, progress)?;
-            SampleMap::new(&dome, width, turn_deg, progress)
-        })?;
-        PyArray1::from_vec(py, map.pixels).reshape([map.height, map.width, 3])
+        pictures::sample_map(py, self, (width, turn_deg), polarising_filter.as_ref(), tolerance, progress)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
@@ -660,22 +535,6 @@ impl Sky {
             PyErr::warn(py, &py.get_type::<TimeWarning>(), &message, 1)?;
         }
         Ok(Self { inner: Arc::new(inner), air, sun_model, model })
-    }
-
-    fn light_options(
-        &self,
-        filter: Option<PyRef<'_, PolarisingFilter>>,
-        tolerance: Option<f64>,
-        layers: Option<&Bound<'_, PyMapping>>,
-    ) -> PyResult<LightOptions> {
-        let options = LightOptions {
-            model: self.model,
-            polarising_filter: filter.map(|filter| filter.inner),
-            tolerance,
-            layers: layers.map(layer_scales).transpose()?.unwrap_or_default(),
-        };
-        options.validate()?;
-        Ok(options)
     }
 
     /// Says that spectra are of sunlight alone, where that matters.

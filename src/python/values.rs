@@ -22,7 +22,7 @@ fn entry(path: &str, key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>, depth: us
 }
 
 /// A value as JSON: None, numbers, texts, paths, dates and times, dictionaries, sequences, and numbers and arrays of numpy.
-fn json(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+pub fn json(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     let wrong = |allowed: &str| {
         let shown: String = value.str().map_or_else(|_| "value".to_owned(), |text| text.to_string()).chars().take(60).collect();
         InputError::new_err(format!("{path} = {shown}: must be {allowed}"))

@@ -57,8 +57,10 @@ pub const AIR: Section = Section { title: "Air", rows: &[crate::atmosphere::AirP
 /// The night.
 pub const NIGHT: Section = Section { title: "Night", rows: &[NightOptions::PARAMETERS] };
 /// The picture.
-pub const IMAGE: Section =
-    Section { title: "Image", rows: &[ProbeSettings::PARAMETERS, LightOptions::PARAMETERS, PolarisingFilter::PARAMETERS] };
+pub const IMAGE: Section = Section {
+    title: "Image",
+    rows: &[ProbeSettings::PARAMETERS, LightOptions::MODEL, LightOptions::PARAMETERS, PolarisingFilter::PARAMETERS],
+};
 /// The files.
 pub const FILE: Section = Section { title: "Output", rows: &[FileOptions::PARAMETERS, OUTPUT] };
 
@@ -85,6 +87,9 @@ mod tests {
             assert!(!parameter.help.is_empty() && !parameter.help.ends_with('.'), "{}", parameter.path());
             if let Some(option) = parameter.option {
                 assert!(options.insert(option.name), "{}", option.name);
+                // A flag that is on could not be taken back.
+                let is_on = parameter.kind == crate::parameter::Kind::Flag && parameter.default == DefaultValue::Value("true");
+                assert_eq!(option.off, is_on.then(|| format!("no-{}", option.name)).as_deref(), "{}", option.name);
             }
             if let DefaultValue::Value(json) = parameter.default {
                 serde_json::from_str::<serde_json::Value>(json).unwrap_or_else(|error| panic!("{}: {error}", parameter.path()));

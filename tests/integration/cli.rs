@@ -739,22 +739,3 @@ fn shells_and_man_are_told_of_every_command() {
         assert!(pages.contains(&name.to_owned()), "{pages:?}");
     }
 }
-
-#[test]
-fn what_is_made_from_the_table_of_parameters_is_up_to_date() {
-    let folder = tempfile::tempdir().unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for (format, file) in
-        [("json", "docs/scene.schema.json"), ("markdown", "docs/parameters.md"), ("python", "blender_addon/parameter_table.py")]
-    {
-        let made = tool(folder.path(), &["schema", "--format", format]);
-        assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
-        let kept = std::fs::read_to_string(root.join(file)).unwrap();
-        assert!(
-            kept.ends_with(&text(&made.stdout)),
-            "{file} is stale: write again what skyprobe schema --format {format} prints"
-        );
-    }
-    let wrong = tool(folder.path(), &["schema", "--format", "xml"]);
-    assert_eq!((wrong.status.code(), text(&wrong.stderr).contains("json, markdown or python")), (Some(2), true));
-}

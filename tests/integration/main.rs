@@ -11,6 +11,7 @@ mod colour;
 mod energy;
 mod examples;
 mod hazes_and_twilight;
+mod made;
 mod night;
 mod night_eclipses;
 mod night_photometry;

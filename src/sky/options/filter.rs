@@ -22,7 +22,7 @@ parameters! {
         /// filter turns with the view: in every direction its axis stands at the same angle from the vertical.
         #[serde(skip_serializing_if = "Option::is_none")]
         held_towards_deg: Option<[f64; 2]> = None => direction().option("filter-towards", "ALT,AZ")
-            .by("it turns with the view");
+            .by("it turns with the view").more("The closer one looks along its axis, the less it does.");
     }
 }
 

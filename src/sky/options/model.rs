@@ -30,7 +30,8 @@ words!(Model, "model", {
 });
 
 /// By which model, through which filter and how exactly a sky is rendered.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct LightOptions {
     /// The model.
     pub model: Model,
@@ -55,19 +56,18 @@ const TOLERANCE: Parameter = row::number(1e-4, 0.5, "")
     .option("tolerance", "SHARE");
 
 impl LightOptions {
-    /// The rows of the table of parameters, but for those of [`PolarisingFilter`].
-    pub const PARAMETERS: &'static [Parameter] = &[
-        row::words(Model::WORDS)
-            .named("", "model", "By which model the sky is rendered")
-            .default("\"scattering\"")
-            .option("model", "NAME")
-            .more(
-                "scattering: solved light, day, twilight and night. preetham: the analytic sky of 1999, by day at turbidities from 2 to 10. thesis, \
-                 thesis_single: ray marching with random steps, light scattered at most twice or once: noisy, for small images. Only scattering knows the night.",
-            ),
-        TOLERANCE,
-        LAYERS,
-    ];
+    /// The row of the model in the table of parameters.
+    pub const MODEL: &'static [Parameter] = &[row::words(Model::WORDS)
+        .named("", "model", "By which model the sky is rendered")
+        .default("\"scattering\"")
+        .option("model", "NAME")
+        .more(
+            "scattering: solved light, day, twilight and night. preetham: the analytic sky of 1999, by day at turbidities from 2 to 10. thesis, \
+             thesis_single: ray marching with random steps, light scattered at most twice or once: noisy, for small images. Only scattering knows the night.",
+        )];
+
+    /// The other rows, but for those of [`PolarisingFilter`].
+    pub const PARAMETERS: &'static [Parameter] = &[TOLERANCE, LAYERS];
 
     /// Checks the numbers, and that the model can do what is asked for.
     ///
