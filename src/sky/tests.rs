@@ -112,6 +112,7 @@ fn a_tolerance_holds_through_a_filter_too() {
     let dome = sky.filtered_light(Some(&filter), Some(0.01), &Progress::silent()).unwrap();
     let weights = Sunlight::of(&sky).xyz_weights().unwrap();
     let field = sky.field(&Progress::silent()).unwrap();
+    let light = &air_light::air_lights(&sky, field, &[], &Progress::silent()).unwrap()[0];
     let mut squares = 0.0;
     let n = 150;
     for i in 0..n {
@@ -120,7 +121,7 @@ fn a_tolerance_holds_through_a_filter_too() {
         let direction = DVec3::new(altitude.cos() * azimuth.sin(), altitude.cos() * azimuth.cos(), altitude.sin());
         let [q, u] = filter.weights(altitude, azimuth);
         let rows = sky
-            .gather_each(field, &[direction], &Progress::silent(), |gathered, look| {
+            .gather_each(field, light, &[direction], &Progress::silent(), |gathered, look| {
                 let through = |w: usize| {
                     let stokes = field.stokes(gathered, 0, w, look.transverse, look.cosine);
                     (stokes[0] + q * stokes[1] + u * stokes[2]) * weights[w][1]

@@ -6,6 +6,7 @@ use crate::celestial::{StarSpectra, planet_irradiance, stars_to};
 use crate::ephemeris::{Bodies, StarFrame, direction_from_horizontal, horizontal_from_direction};
 use crate::error::Result;
 use crate::light::LightField;
+use crate::spectrum::Sensor;
 use crate::time::JulianDate;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -57,10 +58,10 @@ impl Extinction {
     }
 }
 
-/// The planets above the horizon.
-pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies) -> Result<Vec<Point>> {
+/// The planets above the horizon, in the responses of `sensor`.
+pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies, sensor: &Sensor) -> Result<Vec<Point>> {
     let nodes = &sky.atmosphere().profile().wavelengths_nm;
-    let weights = sky.atmosphere().weights().of(|_| 1.0);
+    let weights = sensor.of(|_| 1.0);
     let horizon = sky.horizon();
     let points = bodies.planets.iter().filter_map(|state| {
         let altitude = state.body.apparent_altitude_deg.to_radians();
@@ -76,10 +77,10 @@ pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies) -> R
     Ok(points.collect())
 }
 
-/// The stars of magnitude V <= `limit` above the horizon.
-pub(super) fn star_points(sky: &Sky, field: &LightField, bodies: &Bodies, limit: f64) -> Result<Vec<Point>> {
+/// The stars of magnitude V <= `limit` above the horizon, in the responses of `sensor`.
+pub(super) fn star_points(sky: &Sky, field: &LightField, bodies: &Bodies, limit: f64, sensor: &Sensor) -> Result<Vec<Point>> {
     let nodes = &sky.atmosphere().profile().wavelengths_nm;
-    let weights = sky.atmosphere().weights().of(|_| 1.0);
+    let weights = sensor.of(|_| 1.0);
     let spectra = StarSpectra::new(nodes);
     let extinction = Extinction::new(sky, field);
     let colours: Vec<Vec<[f64; 3]>> =
