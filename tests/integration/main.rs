@@ -14,6 +14,7 @@ mod hazes_and_twilight;
 mod night;
 mod night_eclipses;
 mod night_photometry;
+mod night_spectra;
 mod own_reference;
 mod own_reference_bodies;
 mod path_tracer;
