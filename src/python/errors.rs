@@ -28,7 +28,7 @@ create_exception!(
     skyprobe,
     SunlightOnlyWarning,
     PyUserWarning,
-    "A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."
+    "A result is of sunlight alone where the light of a night would outshine it: a spectrum of a sky without place and time whose Sun is below -18 degrees."
 );
 create_exception!(
     skyprobe,

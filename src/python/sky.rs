@@ -276,10 +276,13 @@ impl Sky {
         Some(LunarEclipse { inner: self.inner.bodies_of_place()?.lunar_eclipse()? })
     }
 
-    /// Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
+    /// Spectral radiance of sky and ground, shape (N, W). [W m-2 sr-1 nm-1]
     ///
-    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    /// It is that of the pictures of this sky, night and all: light of the Sun and of the Moon in the air, zodiacal light, Milky Way, airglow, light of towns.
+    /// Discs (Sun, Moon) and points (stars, planets) have no radiance in a direction and are left out; ``irradiance`` has them. Lights are means over 10 nm.
+    ///
+    /// A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``.
     ///
     /// Parameters
     /// ----------
@@ -300,19 +303,22 @@ impl Sky {
         let directions = unit_vectors(directions)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), wavelengths_nm.len()];
-        self.warn_of_the_night(py, "spectral_radiance")?;
+        self.warn_of_a_low_sun(py, "spectral_radiance")?;
         let radiance = work::run(py, progress, |progress| self.inner.spectral_radiance(&directions, &wavelengths_nm, progress))?;
         PyArray1::from_vec(py, radiance).reshape(shape)
     }
 
-    /// Stokes parameters I, Q, U of sky and ground by the light of the Sun, without its disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+    /// Stokes parameters I, Q, U of sky and ground, shape (N, W, 3). [W m-2 sr-1 nm-1]
     ///
     /// Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
     /// as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
     /// arctan2(U, Q) / 2. Circular polarisation is neglected.
     ///
-    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    /// The light is that of ``spectral_radiance``, which is I. The air polarises moonlight as it does sunlight; zodiacal light, Milky Way, airglow and light of towns are
+    /// taken as unpolarised.
+    ///
+    /// A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``.
     ///
     /// Parameters
     /// ----------
@@ -333,15 +339,17 @@ impl Sky {
         let directions = unit_vectors(directions)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), wavelengths_nm.len(), 3];
-        self.warn_of_the_night(py, "stokes")?;
+        self.warn_of_a_low_sun(py, "stokes")?;
         let stokes = work::run(py, progress, |progress| self.inner.stokes(&directions, &wavelengths_nm, progress))?;
         PyArray1::from_vec(py, stokes).reshape(shape)
     }
 
-    /// Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
+    /// Spectral irradiance of Sun, Moon and sky, with all that shines in it. [W m-2 nm-1]
     ///
-    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    /// Stars and planets are part of the sky at night; by day planets, a billionth of the light, are left out.
+    ///
+    /// A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``.
     ///
     /// Parameters
     /// ----------
@@ -357,7 +365,7 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Irradiance> {
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
-        self.warn_of_the_night(py, "irradiance")?;
+        self.warn_of_a_low_sun(py, "irradiance")?;
         let irradiance = work::run(py, progress, |progress| self.inner.irradiance(&wavelengths_nm, progress))?;
         Ok(Irradiance::new(py, irradiance))
     }
@@ -639,7 +647,15 @@ impl Sky {
         Ok(options)
     }
 
-    /// Says that spectra are of sunlight alone, where that matters.
+    /// Says that spectra that have the night are of sunlight alone, because the sky has no place and time, where that matters.
+    fn warn_of_a_low_sun(&self, py: Python<'_>, method: &str) -> PyResult<()> {
+        match self.inner.place() {
+            Some(_) => Ok(()),
+            None => self.warn_of_the_night(py, method),
+        }
+    }
+
+    /// Says that what `method` gives is of sunlight alone, where that matters.
     fn warn_of_the_night(&self, py: Python<'_>, method: &str) -> PyResult<()> {
         if !self.inner.has_more_than_sunlight() {
             return Ok(());

@@ -308,7 +308,7 @@ fn the_layers_that_are_named_are_those_that_are_made() {
 }
 
 #[test]
-fn a_sky_says_whether_its_spectra_lack_light_that_is_in_its_pictures() {
+fn a_sky_says_whether_it_has_other_light_than_the_suns() {
     let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
     let lund = Place::new(55.7, 13.2, 0.0).unwrap();
     let at = |text: &str, place: Place, when: When| {

@@ -5,7 +5,7 @@ use super::super::layers::Layers;
 use super::super::options::{LayerScales, When};
 use super::super::place_and_time::Sky;
 use super::super::sky_light::SkyLight;
-use super::points::{planet_points, star_points};
+use super::points::{SeenStars, planet_points};
 use super::{add_diffuse, diffuse_air, moon_disc};
 use crate::error::{Result, check_finite};
 use crate::light::LightField;
@@ -53,15 +53,15 @@ pub(in crate::sky) fn horizontal_without_moonlight(
     let Some(bodies) = sky.bodies_of_place().filter(|_| sky.is_night()) else { return Ok(None) };
     let air = diffuse_air(sky, field);
     let sensors = sky.atmosphere().bands(wavelengths_nm);
+    let stars = SeenStars::new(sky, field, bodies, sky.night().star_limit);
     let parts = progress.parts("gather", sensors.len());
     let by_sensor = |sensor: &Sensor| {
         let mut layers = Layers::new(sky.horizon());
         add_diffuse(sky, bodies, &LayerScales::default(), &air, sensor, &mut layers)?;
         let smooth = horizontal_irradiance(&layers, Nodes::FEW, 0.0, |_| 1.0);
         let planets = planet_points(sky, field, bodies, sensor)?;
-        let stars = star_points(sky, field, bodies, sky.night().star_limit, sensor)?;
-        let points = planets.iter().chain(&stars);
-        let all = points.fold(smooth, |sum, point| {
+        let stars = stars.points(sensor);
+        let all = planets.iter().chain(&stars).fold(smooth, |sum, point| {
             std::array::from_fn(|k| sum[k] + point.irradiance[k] * point.direction.z.max(0.0))
         });
         parts.finish_one().map(|()| all)

@@ -24,7 +24,7 @@ use crate::light::LightField;
 use crate::progress::Progress;
 use crate::spectrum::Sensor;
 use diffuse::{DiffuseAir, DiffuseSky};
-use points::{planet_points, star_points};
+use points::{SeenStars, planet_points};
 
 /// Altitude of the Moon below which its light in the air is left out [degrees].
 const DARK_DEG: f64 = -18.0;
@@ -83,7 +83,7 @@ fn add_night(
         return Ok(());
     }
     if wanted(Layer::Stars) {
-        let points = star_points(sky, field, bodies, options.star_limit, sensor)?;
+        let points = SeenStars::new(sky, field, bodies, options.star_limit).points(sensor);
         layers.add(Layer::Stars, scales.of(Layer::Stars), Part::points(points));
     }
     let air = diffuse_air(sky, field);
