@@ -182,9 +182,12 @@ def test_the_full_moon_lights_the_ground(air: sp.Atmosphere) -> None:
     assert spectral.global_horizontal == pytest.approx(spectral.direct_horizontal + spectral.moon_horizontal + spectral.diffuse_horizontal, rel=1e-12)
     assert spectral.moon_horizontal == pytest.approx(spectral.moon_normal * sine, rel=1e-6) and (spectral.moon_normal > 1e-6).all()
     assert spectral.direct_normal.max() < 1e-12 < spectral.diffuse_horizontal.min()
-    zenith = [[0.0, 0.0, 1.0]]
-    i, q, u = sky.stokes(zenith, [550.0])[0, 0]
-    assert i == pytest.approx(sky.spectral_radiance(zenith, [550.0])[0, 0], rel=1e-12) and 0.1 < numpy.hypot(q, u) / i < 0.9
+    # A right angle from the Moon, on the other side of the zenith, where the air polarises most: across the plane through both.
+    altitude, azimuth = numpy.radians([90.0 - sky.moon.altitude_deg, sky.moon.azimuth_deg + 180.0])
+    across = [[numpy.cos(altitude) * numpy.sin(azimuth), numpy.cos(altitude) * numpy.cos(azimuth), numpy.sin(altitude)]]
+    i, q, u = sky.stokes(across, [550.0])[0, 0]
+    assert i == pytest.approx(sky.spectral_radiance(across, [550.0])[0, 0], rel=1e-12, abs=0.0)
+    assert -0.9 < q / i < -0.3 and abs(u / i) < 0.01
 
 
 def test_spectra_have_the_night_and_say_where_there_is_none(air: sp.Atmosphere) -> None:

@@ -65,7 +65,10 @@ impl Sky {
                 let radiance = self.at_wavelengths(&relative, wavelengths_nm, &light.irradiance);
                 // The degree of polarisation is what is smooth over wavelength and may be negative.
                 let [q, u] = [1, 2].map(|k| {
-                    CubicSpline::new(nodes, &stokes.iter().map(|s| if s[0] > 0.0 { s[k] / s[0] } else { 0.0 }).collect::<Vec<_>>())
+                    CubicSpline::new(
+                        nodes,
+                        &stokes.iter().map(|s| if s[0] > 0.0 { s[k] / s[0] } else { 0.0 }).collect::<Vec<_>>(),
+                    )
                 });
                 let at = |(&wavelength, i): (&f64, f64)| {
                     [i, i * q.value(wavelength), i * u.value(wavelength)].map(|value| value * look.gain)

@@ -92,7 +92,8 @@ fn worst(name: &str, sky: &Sky) -> f64 {
 
 #[test]
 fn spectra_of_nights_and_twilight_integrate_to_their_pictures() {
-    for (name, sky) in [("full Moon", full_moon()), ("no Moon", moonless()), ("dusk", dusk()), ("eclipse of the Moon", eclipsed_moon())]
+    for (name, sky) in
+        [("full Moon", full_moon()), ("no Moon", moonless()), ("dusk", dusk()), ("eclipse of the Moon", eclipsed_moon())]
     {
         assert!(worst(name, &sky) < 0.005, "{name}");
     }
@@ -120,10 +121,10 @@ fn each_diffuse_light_has_its_spectrum() {
 #[test]
 fn irradiance_integrates_to_illuminance() {
     let progress = Progress::silent();
-    for (name, sky) in [("full Moon", full_moon()), ("no Moon", moonless()), ("dusk", dusk()), ("eclipse of the Moon", eclipsed_moon())]
+    for (name, sky) in
+        [("full Moon", full_moon()), ("no Moon", moonless()), ("dusk", dusk()), ("eclipse of the Moon", eclipsed_moon())]
     {
-        let (spectral, lux) =
-            (sky.irradiance(&wavelengths(), &progress).unwrap(), sky.illuminance(&progress).unwrap());
+        let (spectral, lux) = (sky.irradiance(&wavelengths(), &progress).unwrap(), sky.illuminance(&progress).unwrap());
         for (part, spectrum, expected) in [
             ("Moon", &spectral.moon_normal, lux.moon_normal_lx),
             ("Moon, horizontal", &spectral.moon_horizontal, lux.moon_horizontal_lx),
@@ -199,7 +200,12 @@ fn air_of_one_wavelength_has_a_night() {
     };
     let (alone, among) = (night(&one), night(&AIR));
     // Ozone is averaged over narrower bands where there are more wavelengths.
-    assert!((alone.0 / among.0 - 1.0).abs() < 0.01 && (alone.1 / among.1 - 1.0).abs() < 0.01, "{alone:?} {among:?}", alone = alone.0, among = among.0);
+    assert!(
+        (alone.0 / among.0 - 1.0).abs() < 0.01 && (alone.1 / among.1 - 1.0).abs() < 0.01,
+        "{alone:?} {among:?}",
+        alone = alone.0,
+        among = among.0
+    );
     let picture = alone.2.light_by(&LightOptions { layers: LayerScales::default(), ..Default::default() }, &progress);
     assert!(picture.err().unwrap().to_string().contains("to make a colour"));
 }

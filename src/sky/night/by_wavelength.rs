@@ -61,9 +61,10 @@ pub(in crate::sky) fn horizontal_without_moonlight(
         let smooth = horizontal_irradiance(&layers, Nodes::FEW, 0.0, |_| 1.0);
         let planets = planet_points(sky, field, bodies, sensor)?;
         let stars = stars.points(sensor);
-        let all = planets.iter().chain(&stars).fold(smooth, |sum, point| {
-            std::array::from_fn(|k| sum[k] + point.irradiance[k] * point.direction.z.max(0.0))
-        });
+        let all = planets
+            .iter()
+            .chain(&stars)
+            .fold(smooth, |sum, point| std::array::from_fn(|k| sum[k] + point.irradiance[k] * point.direction.z.max(0.0)));
         parts.finish_one().map(|()| all)
     };
     let irradiance = by_band(&sensors, wavelengths_nm.len(), by_sensor)?;
@@ -76,9 +77,7 @@ pub(in crate::sky) fn horizontal_without_moonlight(
 pub(in crate::sky) fn moon_by_wavelength(sky: &Sky, field: &LightField, wavelengths_nm: &[f64]) -> Result<(Vec<f64>, f64)> {
     let nothing = || (vec![0.0; wavelengths_nm.len()], 0.0);
     let Some(bodies) = sky.bodies_of_place().filter(|_| sky.night().when != When::Never) else { return Ok(nothing()) };
-    let by_sensor = |sensor: &Sensor| {
-        Ok(moon_disc(sky, field, bodies, sensor)?.map_or([0.0; 3], |disc| disc.irradiance))
-    };
+    let by_sensor = |sensor: &Sensor| Ok(moon_disc(sky, field, bodies, sensor)?.map_or([0.0; 3], |disc| disc.irradiance));
     let irradiance = by_band(&sky.atmosphere().bands(wavelengths_nm), wavelengths_nm.len(), by_sensor)?;
     check_finite("the irradiance by the Moon", &irradiance)?;
     Ok((irradiance, bodies.moon.body.apparent_direction().z.max(0.0)))
