@@ -143,8 +143,7 @@ def test_totality_leaves_a_dark_sky_with_a_bright_horizon(air: sp.Atmosphere) ->
     assert probe.irradiance()[1] == pytest.approx(light.diffuse_horizontal_lx, rel=0.01)
     # Round the Sun's place the corona shines, in the picture and in numbers, and stars are out.
     assert sky.render(width=512, scale="luminance", color_space="xyz").irradiance()[1] == pytest.approx(light.global_horizontal_lx, rel=0.01)
-    with pytest.warns(sp.SunlightOnlyWarning):
-        assert light.direct_horizontal_lx == pytest.approx(0.1, abs=0.03) and sky.irradiance([550.0]).direct_normal[0] > 0.0
+    assert light.direct_horizontal_lx == pytest.approx(0.1, abs=0.03) and sky.irradiance([550.0]).direct_normal[0] > 0.0
     assert {"stars", "zodiacal"} < set(sky.layer_names)
 
 
@@ -178,33 +177,46 @@ def test_the_full_moon_lights_the_ground(air: sp.Atmosphere) -> None:
     probe = sky.render(width=1024, scale="luminance", color_space="xyz")
     assert probe.irradiance()[1] == pytest.approx(light.global_horizontal_lx, rel=0.01)
     assert repr(light).startswith("<Illuminance on the horizontal: Sun 0.0000 lx, Moon 0.1")
-    # Spectra and irradiance are those of sunlight: at midnight there is next to none, and that is told.
-    with pytest.warns(sp.SunlightOnlyWarning, match="irradiance: of sunlight alone, with the Sun at -53.24 degrees"):
-        assert sky.irradiance([550.0]).diffuse_horizontal[0] < 1e-9
+    # Spectra are of the same light, and so is its polarisation.
+    spectral = sky.irradiance([500.0, 550.0, 600.0])
+    assert spectral.global_horizontal == pytest.approx(spectral.direct_horizontal + spectral.moon_horizontal + spectral.diffuse_horizontal, rel=1e-12)
+    assert spectral.moon_horizontal == pytest.approx(spectral.moon_normal * sine, rel=1e-6) and (spectral.moon_normal > 1e-6).all()
+    assert spectral.direct_normal.max() < 1e-12 < spectral.diffuse_horizontal.min()
+    # A right angle from the Moon, on the other side of the zenith, where the air polarises most: across the plane through both.
+    altitude, azimuth = numpy.radians([90.0 - sky.moon.altitude_deg, sky.moon.azimuth_deg + 180.0])
+    across = [[numpy.cos(altitude) * numpy.sin(azimuth), numpy.cos(altitude) * numpy.cos(azimuth), numpy.sin(altitude)]]
+    i, q, u = sky.stokes(across, [550.0])[0, 0]
+    assert i == pytest.approx(sky.spectral_radiance(across, [550.0])[0, 0], rel=1e-12, abs=0.0)
+    assert -0.9 < q / i < -0.3 and abs(u / i) < 0.01
 
 
-def test_spectra_say_where_they_lack_the_night(air: sp.Atmosphere) -> None:
-    def ask(sky: sp.Sky) -> list[str]:
+def test_spectra_have_the_night_and_say_where_there_is_none(air: sp.Atmosphere) -> None:
+    def ask(sky: sp.Sky) -> tuple[list[str], float]:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            sky.spectral_radiance([[0.0, 0.0, 1.0]], [550.0])
+            radiance = sky.spectral_radiance([[0.0, 0.0, 1.0]], [550.0])[0, 0]
             sky.stokes([[0.0, 0.0, 1.0]], [550.0])
             sky.irradiance([550.0])
         assert all(warning.category is sp.SunlightOnlyWarning and warning.filename == __file__ for warning in caught)
-        return [str(warning.message).partition(":")[0] for warning in caught]
+        return [str(warning.message).partition(":")[0] for warning in caught], float(radiance)
 
-    all_three = ["spectral_radiance", "stokes", "irradiance"]
     assert issubclass(sp.SunlightOnlyWarning, UserWarning)
-    assert ask(sky_at(air, LUND, FULL_MOON)) == all_three
-    assert ask(sky_at(air, LUND, FULL_MOON, night=sp.Night(when="never"))) == []
-    assert ask(sky_at(air, LUND, "2005-01-25T12:00:00+01:00")) == []
-    assert ask(sky_at(air, LUND, "2005-01-25T12:00:00+01:00", night=sp.Night(when="always"))) == all_three
-    assert ask(sp.Sky.with_sun(altitude_deg=-6.0, azimuth_deg=0.0, atmosphere=air)) == []
-    assert ask(sp.Sky.with_sun(altitude_deg=-30.0, azimuth_deg=0.0, atmosphere=air)) == all_three
+    told, radiance = ask(sky_at(air, LUND, FULL_MOON))
+    assert told == [] and radiance > 1e-8
+    told, radiance = ask(sky_at(air, LUND, FULL_MOON, night=sp.Night(when="never")))
+    assert told == [] and radiance < 1e-20
+    noon = "2005-01-25T12:00:00+01:00"
+    assert ask(sky_at(air, LUND, noon)) == ask(sky_at(air, LUND, noon, night=sp.Night(when="never")))
+    assert ask(sky_at(air, LUND, noon, night=sp.Night(when="always")))[1] > ask(sky_at(air, LUND, noon))[1]
+    assert ask(sp.Sky.with_sun(altitude_deg=-6.0, azimuth_deg=0.0, atmosphere=air))[0] == []
+    low = sp.Sky.with_sun(altitude_deg=-30.0, azimuth_deg=0.0, atmosphere=air)
+    assert ask(low)[0] == ["spectral_radiance", "stokes", "irradiance"]
+    with pytest.warns(sp.SunlightOnlyWarning, match="irradiance: of sunlight alone, with the Sun at -30.00 degrees"):
+        low.irradiance([550.0])
     with warnings.catch_warnings():
         warnings.simplefilter("error", sp.SunlightOnlyWarning)
-        with pytest.raises(sp.SunlightOnlyWarning, match="Night"):
-            sky_at(air, LUND, FULL_MOON).spectral_radiance([[0.0, 0.0, 1.0]], [550.0])
+        with pytest.raises(sp.SunlightOnlyWarning, match="without place and time"):
+            low.spectral_radiance([[0.0, 0.0, 1.0]], [550.0])
 
 
 def zenith_magnitude(sky: sp.Sky) -> float:

@@ -175,8 +175,6 @@ def test_the_light_can_be_solved_at_wavelengths_of_choice() -> None:
         sp.Atmosphere(wavelengths_nm=[200.0])
 
 
-# Spectra of twilight are asked for here, and lack the night.
-@pytest.mark.filterwarnings("ignore::skyprobe.SunlightOnlyWarning")
 def test_nothing_but_the_air_makes_the_light_be_solved_again(pure: sp.Atmosphere) -> None:
     pure.solve()
     stages: list[str] = []

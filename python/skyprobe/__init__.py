@@ -35,7 +35,7 @@ Errors
 :class:`InputError` (a ``ValueError``) names the parameter, the value and the allowed range; :class:`DataError` (a
 ``RuntimeError``) says which data cannot be used; :class:`UnsolvedError` (a ``RuntimeError``) says that the light of this air cannot be found and what
 would help; files raise ``OSError``; :class:`Cancelled` says that the callback stopped the work.
-:class:`ScaleWarning` says that the luminance of a picture had to be assumed, :class:`SunlightOnlyWarning` that a spectrum lacks the light of the night,
+:class:`ScaleWarning` says that the luminance of a picture had to be assumed, :class:`SunlightOnlyWarning` that a result is of sunlight alone in the dark,
 :class:`TimeWarning` what had to be assumed about a time.
 
 Processes

@@ -146,7 +146,7 @@ class ScaleWarning(UserWarning):
     """The luminance that a picture's numbers stand for was not said, and had to be assumed: glare and tone mapping depend on it."""
 
 class SunlightOnlyWarning(UserWarning):
-    """A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."""
+    """A result lacks the light of a night that may outshine it: a spectrum of a sky without place and time whose Sun is below -18 degrees; at night what the air along a line of sight scatters."""
 
 class TimeWarning(UserWarning):
     """Something had to be assumed about a time: its clocks show it never or twice, it is a date alone, or it has a second 60. The message says which instant is taken."""
@@ -591,7 +591,7 @@ class SunEvents:
 
 @final
 class Irradiance:
-    """Spectral irradiance by the light of the Sun, each of shape (W,). [W m-2 nm-1]"""
+    """Spectral irradiance, each of shape (W,). [W m-2 nm-1]"""
 
     @property
     def direct_normal(self) -> NDArray[numpy.float64]:
@@ -602,8 +602,20 @@ class Irradiance:
         """Of the same, on the horizontal plane. [W m-2 nm-1]"""
 
     @property
+    def moon_normal(self) -> NDArray[numpy.float64]:
+        """Of the Moon's disc, on a plane that faces it. [W m-2 nm-1]"""
+
+    @property
+    def moon_horizontal(self) -> NDArray[numpy.float64]:
+        """Of the Moon's disc, on the horizontal plane. [W m-2 nm-1]"""
+
+    @property
     def diffuse_horizontal(self) -> NDArray[numpy.float64]:
-        """Of the sky that the Sun lights, without the disc, on the horizontal plane. [W m-2 nm-1]"""
+        """Of the sky with all that shines in it but the discs of Sun and Moon, on the horizontal plane. [W m-2 nm-1]"""
+
+    @property
+    def global_horizontal(self) -> NDArray[numpy.float64]:
+        """Of discs and sky, on the horizontal plane. [W m-2 nm-1]"""
 
 @final
 class Illuminance:
@@ -999,10 +1011,13 @@ class Sky:
     def spectral_radiance(
         self, directions: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
     ) -> NDArray[numpy.float64]:
-        """Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
+        """Spectral radiance of sky and ground, shape (N, W). [W m-2 sr-1 nm-1]
 
-        It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+        It is that of the pictures of this sky, night and all: light of the Sun and of the Moon in the air, zodiacal light, Milky Way, airglow, light of towns.
+        Discs (Sun, Moon) and points (stars, planets) have no radiance in a direction and are left out; ``irradiance`` has them. Lights are means over 10 nm.
+
+        A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``.
 
         Parameters
         ----------
@@ -1017,14 +1032,17 @@ class Sky:
     def stokes(
         self, directions: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
     ) -> NDArray[numpy.float64]:
-        """Stokes parameters I, Q, U of sky and ground by the light of the Sun, without its disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+        """Stokes parameters I, Q, U of sky and ground, shape (N, W, 3). [W m-2 sr-1 nm-1]
 
         Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
         as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
         arctan2(U, Q) / 2. Circular polarisation is neglected.
 
-        It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+        The light is that of ``spectral_radiance``, which is I. The air polarises moonlight as it does sunlight; zodiacal light, Milky Way, airglow and light of towns are
+        taken as unpolarised.
+
+        A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``.
 
         Parameters
         ----------
@@ -1039,13 +1057,13 @@ class Sky:
     def segment(
         self, directions: ArrayLike, distances_m: ArrayLike, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None
     ) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
-        """Light of parts of the lines of sight: the transmittance from the observer to distances, and the radiance of the sunlight that the air before them scatters to the
+        """Light of parts of the lines of sight: the transmittance from the observer to distances, and the radiance that the air before them scatters to the
         observer, two arrays of shape (N, D, W). [1, W m-2 sr-1 nm-1]
 
         A surface of radiance L at a distance is seen as L times the transmittance plus the radiance: this is aerial perspective. A line of sight ends on the ground or in space, and
         distances beyond find what its end has; the light of the ground is not in it. The transmittance is that of light that is neither scattered nor absorbed: what haze turns into the line of sight from beside it is in the radiance, with the clear sky's light around the line.
 
-        The radiance is of sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        The radiance is light of the Sun and, at night, of the Moon. Where the air scatters other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
         ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
 
         Parameters
@@ -1061,10 +1079,12 @@ class Sky:
         """
 
     def irradiance(self, wavelengths_nm: ArrayLike, *, progress: _Progress | None = None) -> Irradiance:
-        """Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
+        """Spectral irradiance of Sun, Moon and sky, with all that shines in it. [W m-2 nm-1]
 
-        It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-        ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+        Stars and planets are part of the sky at night; by day planets, a billionth of the light, are left out.
+
+        A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+        ``Night(when="never")``.
 
         Parameters
         ----------

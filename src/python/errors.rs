@@ -28,7 +28,7 @@ create_exception!(
     skyprobe,
     SunlightOnlyWarning,
     PyUserWarning,
-    "A spectrum is of sunlight alone, and the sky that it is asked of has light of the night, too, which is in its pictures and in its illuminance."
+    "A result lacks the light of a night that may outshine it: a spectrum of a sky without place and time whose Sun is below -18 degrees; at night what the air along a line of sight scatters."
 );
 create_exception!(
     skyprobe,

@@ -95,12 +95,15 @@ impl SunEvents {
     }
 }
 
-/// Spectral irradiance by the light of the Sun, each of shape (W,). [W m-2 nm-1]
+/// Spectral irradiance, each of shape (W,). [W m-2 nm-1]
 #[pyclass(frozen, module = "skyprobe")]
 pub struct Irradiance {
     direct_normal: Py<PyArray1<f64>>,
     direct_horizontal: Py<PyArray1<f64>>,
+    moon_normal: Py<PyArray1<f64>>,
+    moon_horizontal: Py<PyArray1<f64>>,
     diffuse_horizontal: Py<PyArray1<f64>>,
+    global_horizontal: Py<PyArray1<f64>>,
 }
 
 impl Irradiance {
@@ -109,7 +112,10 @@ impl Irradiance {
         Self {
             direct_normal: array(irradiance.direct_normal),
             direct_horizontal: array(irradiance.direct_horizontal),
+            moon_normal: array(irradiance.moon_normal),
+            moon_horizontal: array(irradiance.moon_horizontal),
             diffuse_horizontal: array(irradiance.diffuse_horizontal),
+            global_horizontal: array(irradiance.global_horizontal),
         }
     }
 }
@@ -128,10 +134,28 @@ impl Irradiance {
         self.direct_horizontal.clone_ref(py)
     }
 
-    /// Of the sky that the Sun lights, without the disc, on the horizontal plane. [W m-2 nm-1]
+    /// Of the Moon's disc, on a plane that faces it. [W m-2 nm-1]
+    #[getter]
+    fn moon_normal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.moon_normal.clone_ref(py)
+    }
+
+    /// Of the Moon's disc, on the horizontal plane. [W m-2 nm-1]
+    #[getter]
+    fn moon_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.moon_horizontal.clone_ref(py)
+    }
+
+    /// Of the sky with all that shines in it but the discs of Sun and Moon, on the horizontal plane. [W m-2 nm-1]
     #[getter]
     fn diffuse_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
         self.diffuse_horizontal.clone_ref(py)
+    }
+
+    /// Of discs and sky, on the horizontal plane. [W m-2 nm-1]
+    #[getter]
+    fn global_horizontal(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.global_horizontal.clone_ref(py)
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

@@ -275,10 +275,13 @@ impl Sky {
         Some(LunarEclipse { inner: self.inner.bodies_of_place()?.lunar_eclipse()? })
     }
 
-    /// Spectral radiance of sky and ground by the light of the Sun, without its disc, shape (N, W). [W m-2 sr-1 nm-1]
+    /// Spectral radiance of sky and ground, shape (N, W). [W m-2 sr-1 nm-1]
     ///
-    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    /// It is that of the pictures of this sky, night and all: light of the Sun and of the Moon in the air, zodiacal light, Milky Way, airglow, light of towns.
+    /// Discs (Sun, Moon) and points (stars, planets) have no radiance in a direction and are left out; ``irradiance`` has them. Lights are means over 10 nm.
+    ///
+    /// A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``.
     ///
     /// Parameters
     /// ----------
@@ -299,19 +302,22 @@ impl Sky {
         let directions = unit_vectors(directions)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), wavelengths_nm.len()];
-        self.warn_of_the_night(py, "spectral_radiance")?;
+        self.warn_of_a_low_sun(py, "spectral_radiance")?;
         let radiance = work::run(py, progress, |progress| self.inner.spectral_radiance(&directions, &wavelengths_nm, progress))?;
         PyArray1::from_vec(py, radiance).reshape(shape)
     }
 
-    /// Stokes parameters I, Q, U of sky and ground by the light of the Sun, without its disc, shape (N, W, 3). [W m-2 sr-1 nm-1]
+    /// Stokes parameters I, Q, U of sky and ground, shape (N, W, 3). [W m-2 sr-1 nm-1]
     ///
     /// Q > 0 is polarised vertically, in the plane of the direction and the zenith; U > 0 along the line 45 degrees clockwise from the vertical
     /// as one sees it. The degree of linear polarisation is hypot(Q, U) / I, and the angle of the vibration from the vertical, clockwise,
     /// arctan2(U, Q) / 2. Circular polarisation is neglected.
     ///
-    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    /// The light is that of ``spectral_radiance``, which is I. The air polarises moonlight as it does sunlight; zodiacal light, Milky Way, airglow and light of towns are
+    /// taken as unpolarised.
+    ///
+    /// A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``.
     ///
     /// Parameters
     /// ----------
@@ -332,18 +338,18 @@ impl Sky {
         let directions = unit_vectors(directions)?;
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
         let shape = [directions.len(), wavelengths_nm.len(), 3];
-        self.warn_of_the_night(py, "stokes")?;
+        self.warn_of_a_low_sun(py, "stokes")?;
         let stokes = work::run(py, progress, |progress| self.inner.stokes(&directions, &wavelengths_nm, progress))?;
         PyArray1::from_vec(py, stokes).reshape(shape)
     }
 
-    /// Light of parts of the lines of sight: the transmittance from the observer to distances, and the radiance of the sunlight that the air before them scatters to the
+    /// Light of parts of the lines of sight: the transmittance from the observer to distances, and the radiance that the air before them scatters to the
     /// observer, two arrays of shape (N, D, W). [1, W m-2 sr-1 nm-1]
     ///
     /// A surface of radiance L at a distance is seen as L times the transmittance plus the radiance: this is aerial perspective. A line of sight ends on the ground or in space, and
     /// distances beyond find what its end has; the light of the ground is not in it. The transmittance is that of light that is neither scattered nor absorbed: what haze turns into the line of sight from beside it is in the radiance, with the clear sky's light around the line.
     ///
-    /// The radiance is of sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// The radiance is light of the Sun and, at night, of the Moon. Where the air scatters other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
     /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
     ///
     /// Parameters
@@ -376,10 +382,12 @@ impl Sky {
         Ok((array(light.transmittance)?, array(light.in_scattered_radiance)?))
     }
 
-    /// Spectral irradiance by the light of the Sun: of its disc and of the sky. [W m-2 nm-1]
+    /// Spectral irradiance of Sun, Moon and sky, with all that shines in it. [W m-2 nm-1]
     ///
-    /// It is sunlight alone. Where the sky has other light, at night and in a total eclipse, a ``SunlightOnlyWarning`` says so, unless the sky's night is
-    /// ``Night(when="never")``; in a sky without place and time, if the Sun is below -18 degrees.
+    /// Stars and planets are part of the sky at night; by day planets, a billionth of the light, are left out.
+    ///
+    /// A sky without place and time has the light of its Sun alone; with the Sun below -18 degrees a ``SunlightOnlyWarning`` says so, unless the sky's night is
+    /// ``Night(when="never")``.
     ///
     /// Parameters
     /// ----------
@@ -395,7 +403,7 @@ impl Sky {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Irradiance> {
         let wavelengths_nm = arrays::vector("wavelengths_nm", wavelengths_nm)?;
-        self.warn_of_the_night(py, "irradiance")?;
+        self.warn_of_a_low_sun(py, "irradiance")?;
         let irradiance = work::run(py, progress, |progress| self.inner.irradiance(&wavelengths_nm, progress))?;
         Ok(Irradiance::new(py, irradiance))
     }
@@ -537,19 +545,31 @@ impl Sky {
         Ok(Self { inner: Arc::new(inner), air, sun_model, model })
     }
 
-    /// Says that spectra are of sunlight alone, where that matters.
+    /// Says that spectra that have the night are of sunlight alone, because the sky has no place and time, where that matters.
+    fn warn_of_a_low_sun(&self, py: Python<'_>, method: &str) -> PyResult<()> {
+        match self.inner.place() {
+            Some(_) => Ok(()),
+            None => self.warn_of_the_night(py, method),
+        }
+    }
+
+    /// Says that what `method` gives lacks the light of the night, where that matters.
     fn warn_of_the_night(&self, py: Python<'_>, method: &str) -> PyResult<()> {
         if !self.inner.has_more_than_sunlight() {
             return Ok(());
         }
         let altitude = self.inner.sun().altitude_deg;
-        let elsewhere = match self.inner.place() {
-            Some(_) => "they are in render() and illuminance(), and Night(when=\"never\") leaves them out of all",
-            None => "a sky without place and time has none of them",
+        let (light, elsewhere) = match self.inner.place() {
+            Some(_) => (
+                "the light of Sun and Moon",
+                "stars, airglow and towns are not in it (spectral_radiance() has them, and Night(when=\"never\") leaves them out of all)",
+            ),
+            None => (
+                "sunlight",
+                "Moon, stars, airglow and the other lights of the night are not in it (a sky without place and time has none of them)",
+            ),
         };
-        let message = format!(
-            "{method}: of sunlight alone, with the Sun at {altitude:.2} degrees; Moon, stars, airglow and the other lights of the night are not in it ({elsewhere})"
-        );
+        let message = format!("{method}: of {light} alone, with the Sun at {altitude:.2} degrees; {elsewhere}");
         let message = std::ffi::CString::new(message).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<SunlightOnlyWarning>(), &message, 1)
     }

@@ -3,7 +3,7 @@
 use crate::celestial::{EclipsedSunlight, MoonDisc, MoonView};
 use crate::ephemeris::{Bodies, SolarEclipse};
 use crate::error::Result;
-use crate::spectrum::{WeightsOfAnySource, solar};
+use crate::spectrum::solar;
 use crate::units::ASTRONOMICAL_UNIT_KM;
 
 /// The light of the Sun behind the Moon, if the Moon covers any of it.
@@ -32,10 +32,10 @@ pub(super) fn moon(bodies: &Bodies) -> Result<MoonDisc> {
     })
 }
 
-/// Weights that turn radiance per unit irradiance of the Moon into XYZ.
-pub(super) fn moonlight_weights(moon: &MoonDisc, weights: &WeightsOfAnySource) -> Vec<[f64; 3]> {
+/// The Moon's irradiance outside the air by wavelength [nm]: means over 1 nm [W m-2 nm-1].
+pub(super) fn moonlight(moon: &MoonDisc) -> impl Fn(f64) -> f64 {
     let integrals = moon.component_integrals();
-    weights.of(|wavelength| solar::irradiance(wavelength, 1.0) * irradiance_ratio(moon, integrals, wavelength))
+    move |wavelength| solar::irradiance(wavelength, 1.0) * irradiance_ratio(moon, integrals, wavelength)
 }
 
 /// The Moon's irradiance outside the air over the Sun's at 1 au, for the integrals of its components.

@@ -9,7 +9,7 @@ use crate::light::LightField;
 use crate::numerics::CubicSpline;
 use crate::progress::Progress;
 use crate::quality::Quality;
-use crate::spectrum::{WeightsOfAnySource, solar, wavelengths};
+use crate::spectrum::{Sensor, solar, wavelengths};
 use std::sync::OnceLock;
 
 /// The air and the light in it. The light is solved once, when it is first needed, and serves every place, time and height.
@@ -21,7 +21,7 @@ pub struct Atmosphere {
     /// Whether the wavelengths are not those of the quality.
     chosen_wavelengths: bool,
     cache: Option<Cache>,
-    weights: OnceLock<WeightsOfAnySource>,
+    xyz: OnceLock<Sensor>,
     field: OnceLock<LightField>,
     /// Taken while solving, so that two threads that need the light at once solve it once.
     solving: Turn,
@@ -75,7 +75,7 @@ impl Atmosphere {
             polarised,
             chosen_wavelengths: false,
             cache: None,
-            weights: OnceLock::new(),
+            xyz: OnceLock::new(),
             field: OnceLock::new(),
             solving: Turn::default(),
         }
@@ -160,6 +160,19 @@ impl Atmosphere {
     /// # Errors
     /// [`Error::Input`] if the wavelengths are too few or cover too little of the visible spectrum to make a colour.
     pub(super) fn xyz_weights(&self) -> Result<Vec<[f64; 3]>> {
+        let sensor = self.xyz()?;
+        if self.parameters.is_some() {
+            return Ok(sensor.of(|wavelength| solar::irradiance(wavelength, 1.0)));
+        }
+        let plain = sensor.of(|_| 1.0);
+        Ok(plain.into_iter().zip(&self.profile.solar_irradiance).map(|(xyz, &sun)| xyz.map(|w| w * sun)).collect())
+    }
+
+    /// X, Y and Z of light of any source by the solved wavelengths.
+    ///
+    /// # Errors
+    /// As [`Self::xyz_weights`].
+    pub(super) fn xyz(&self) -> Result<&Sensor> {
         let nodes = &self.profile.wavelengths_nm;
         let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
         if nodes.len() < 4 || first > 450.0 || last < 650.0 {
@@ -169,16 +182,12 @@ impl Atmosphere {
                 "at least 4 values that reach from 450 nm or less to 650 nm or more, to make a colour",
             ));
         }
-        if self.parameters.is_some() {
-            return Ok(self.weights().of(|wavelength| solar::irradiance(wavelength, 1.0)));
-        }
-        let plain = self.weights().of(|_| 1.0);
-        Ok(plain.into_iter().zip(&self.profile.solar_irradiance).map(|(xyz, &sun)| xyz.map(|w| w * sun)).collect())
+        Ok(self.xyz.get_or_init(|| Sensor::xyz(nodes)))
     }
 
-    /// Weights of the solved wavelengths for light of any source.
-    pub(super) fn weights(&self) -> &WeightsOfAnySource {
-        self.weights.get_or_init(|| WeightsOfAnySource::new(&self.profile.wavelengths_nm))
+    /// Spectral values at `wavelengths_nm` of light of any source by the solved wavelengths.
+    pub(super) fn bands(&self, wavelengths_nm: &[f64]) -> Vec<Sensor> {
+        Sensor::bands(&self.profile.wavelengths_nm, wavelengths_nm)
     }
 
     /// Solar irradiance at 1 au at any of the wavelengths that the profile covers [W m-2 nm-1].

@@ -147,7 +147,10 @@ impl Sky {
     ) -> Result<[f64; 3]> {
         let field = self.field(progress)?;
         let seen = self.bodies_of_place().filter(|_| self.night().when != When::Never);
-        let disc = seen.map(|bodies| moon_disc(self, field, bodies)).transpose()?.flatten();
+        let disc = match seen {
+            Some(bodies) => moon_disc(self, field, bodies, self.atmosphere().xyz()?)?,
+            None => None,
+        };
         disc.map_or(Ok([0.0; 3]), |disc| lamp(disc.irradiance, scale, color_space, gamut))
     }
 

@@ -15,8 +15,14 @@ pub struct Irradiance {
     pub direct_normal: Vec<f64>,
     /// By the same on the horizontal plane.
     pub direct_horizontal: Vec<f64>,
-    /// By the sky on the horizontal plane.
+    /// By the Moon's disc on a surface that faces it.
+    pub moon_normal: Vec<f64>,
+    /// By the Moon's disc on the horizontal plane.
+    pub moon_horizontal: Vec<f64>,
+    /// By the sky, at night with stars and planets, on the horizontal plane.
     pub diffuse_horizontal: Vec<f64>,
+    /// By all of them on the horizontal plane.
+    pub global_horizontal: Vec<f64>,
 }
 
 /// Illuminance [lx].

@@ -1,5 +1,6 @@
 //! What is seen from a place at a time: the light of the sky, the Sun's disc, the ground.
 
+mod air_light;
 mod airless;
 mod atmosphere;
 pub mod cache;

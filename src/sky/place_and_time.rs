@@ -115,8 +115,8 @@ impl Sky {
         }
     }
 
-    /// Whether there is light in this sky that its spectra ([`Self::spectral_radiance`], [`Self::stokes`], [`Self::irradiance`]) lack, because they are of sunlight alone: if moonlight, stars
-    /// and diffuse light are in its pictures by [`Self::night`], and, in a sky without place and time, with the Sun so low that they would outshine it, below -18 degrees.
+    /// Whether there is other light than the Sun's in this sky: in one of a place and a time if moonlight, stars and diffuse light are in it by [`Self::night`]; in one without, which has
+    /// sunlight alone in pictures and spectra, if the Sun is so low that the light of a night would outshine it, below -18 degrees.
     pub fn has_more_than_sunlight(&self) -> bool {
         match self.bodies_of_place() {
             Some(_) => self.is_night(),

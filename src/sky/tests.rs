@@ -112,6 +112,7 @@ fn a_tolerance_holds_through_a_filter_too() {
     let dome = sky.filtered_light(Some(&filter), Some(0.01), &Progress::silent()).unwrap();
     let weights = Sunlight::of(&sky).xyz_weights().unwrap();
     let field = sky.field(&Progress::silent()).unwrap();
+    let light = &air_light::air_lights(&sky, field, &[], &Progress::silent()).unwrap()[0];
     let mut squares = 0.0;
     let n = 150;
     for i in 0..n {
@@ -120,7 +121,7 @@ fn a_tolerance_holds_through_a_filter_too() {
         let direction = DVec3::new(altitude.cos() * azimuth.sin(), altitude.cos() * azimuth.cos(), altitude.sin());
         let [q, u] = filter.weights(altitude, azimuth);
         let rows = sky
-            .gather_each(field, &[direction], &Progress::silent(), |gathered, look| {
+            .gather_each(field, light, &[direction], &Progress::silent(), |gathered, look| {
                 let through = |w: usize| {
                     let stokes = field.stokes(gathered, 0, w, look.transverse, look.cosine);
                     (stokes[0] + q * stokes[1] + u * stokes[2]) * weights[w][1]
@@ -307,7 +308,7 @@ fn the_layers_that_are_named_are_those_that_are_made() {
 }
 
 #[test]
-fn a_sky_says_whether_its_spectra_lack_light_that_is_in_its_pictures() {
+fn a_sky_says_whether_it_has_other_light_than_the_suns() {
     let air = Arc::new(Atmosphere::new(&AirParameters::default(), Quality::Draft, true).unwrap());
     let lund = Place::new(55.7, 13.2, 0.0).unwrap();
     let at = |text: &str, place: Place, when: When| {

@@ -10,4 +10,4 @@ pub mod weights;
 pub use binned::BinnedSpectrum;
 pub use color_space::{Chromaticities, ColorSpace, Gamut};
 pub use grid::wavelengths;
-pub use weights::{WeightsOfAnySource, xyz_weights};
+pub use weights::{Sensor, xyz_weights};

@@ -21,6 +21,11 @@ pub fn irradiance(wavelength_nm: f64, band_width_nm: f64) -> f64 {
     SPECTRUM.mean(wavelength_nm, band_width_nm)
 }
 
+/// Low and high edge of the table [nm].
+pub fn range_nm() -> (f64, f64) {
+    SPECTRUM.range_nm()
+}
+
 /// Means over 10 nm around each of `wavelengths_nm` [W m-2 nm-1]; see [`irradiance`].
 pub fn band_means(wavelengths_nm: &[f64]) -> Vec<f64> {
     wavelengths_nm.iter().map(|&wavelength| irradiance(wavelength, BAND_WIDTH_NM)).collect()

@@ -15,6 +15,7 @@ mod made;
 mod night;
 mod night_eclipses;
 mod night_photometry;
+mod night_spectra;
 mod own_reference;
 mod own_reference_bodies;
 mod path_tracer;

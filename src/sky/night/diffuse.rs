@@ -15,9 +15,8 @@ use super::super::disc::Disc;
 use super::super::sky_light::SkyLight;
 use crate::atmosphere::OpticalProfile;
 use crate::celestial::DiffuseLight;
-use crate::error::{Error, Result};
 use crate::light::LightField;
-use crate::spectrum::{WeightsOfAnySource, observer};
+use crate::spectrum::Sensor;
 use glam::{DMat3, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -32,8 +31,7 @@ const DIFFUSE_AIR_MASS: f64 = 1.66;
 const MEANS: (usize, usize) = (24, 48);
 
 /// What the air does to diffuse light, by wavelength.
-pub(super) struct DiffuseAir<'a> {
-    weights: &'a WeightsOfAnySource,
+pub(super) struct DiffuseAir {
     horizon: f64,
     /// Transmittance to space above, to the ground below the horizon: (side, altitude, wavelength).
     transmittance: [Vec<Vec<f64>>; 2],
@@ -42,23 +40,9 @@ pub(super) struct DiffuseAir<'a> {
     albedo: Vec<f64>,
 }
 
-impl<'a> DiffuseAir<'a> {
-    /// The air of `profile`, whose light is `field` and whose wavelengths have `weights`, over an observer at `altitude_km` with the horizon at `horizon` [radians].
-    ///
-    /// # Errors
-    /// [`Error::Input`] if its wavelengths make no colour.
-    pub fn new(
-        (field, profile, weights): (&LightField, &OpticalProfile, &'a WeightsOfAnySource),
-        altitude_km: f64,
-        horizon: f64,
-    ) -> Result<Self> {
-        if profile.wavelengths_nm.len() < 4 {
-            return Err(Error::input(
-                "wavelengths_nm",
-                profile.wavelengths_nm.len(),
-                "at least 4, to make a colour of the night",
-            ));
-        }
+impl DiffuseAir {
+    /// The air of `profile`, whose light is `field`, over an observer at `altitude_km` with the horizon at `horizon` [radians].
+    pub fn new(field: &LightField, profile: &OpticalProfile, altitude_km: f64, horizon: f64) -> Self {
         let sides = [FRAC_PI_2 - horizon, -FRAC_PI_2 - horizon];
         let transmittance = sides.map(|way| {
             let at = |i: usize| {
@@ -70,14 +54,13 @@ impl<'a> DiffuseAir<'a> {
             (0..ALTITUDES).map(at).collect()
         });
         let (scattering, extinction) = vertical_optical_depths(profile, altitude_km);
-        Ok(Self {
-            weights,
+        Self {
             horizon,
             transmittance,
             scattering_share: scattering.iter().zip(&extinction).map(|(s, e)| if *e > 0.0 { s / e } else { 0.0 }).collect(),
             diffuse_transmittance: extinction.iter().map(|depth| (-DIFFUSE_AIR_MASS * 0.75 * depth).exp()).collect(),
             albedo: profile.ground_albedo.clone(),
-        })
+        }
     }
 }
 
@@ -99,7 +82,7 @@ fn vertical_optical_depths(profile: &OpticalProfile, altitude_km: f64) -> (Vec<f
     (scattering, extinction)
 }
 
-/// XYZ per unit of each scalar, and what comes whatever the direction.
+/// Responses of the sensor per unit of each scalar, and what comes whatever the direction.
 #[derive(Clone, Copy)]
 struct AtAltitude<const N: usize> {
     seen: [[f32; 3]; N],
@@ -119,27 +102,23 @@ pub(super) struct DiffuseSky<D, const N: usize> {
 }
 
 impl<D: DiffuseLight<N> + Sync, const N: usize> DiffuseSky<D, N> {
-    /// Light that comes from above the air.
-    pub fn above(light: D, to_frame: DMat3, air: &DiffuseAir) -> Self {
-        Self::new(light, to_frame, air, true)
+    /// Light that comes from above the air, in the responses of `sensor`.
+    pub fn above(light: D, to_frame: DMat3, air: &DiffuseAir, sensor: &Sensor) -> Self {
+        Self::new(light, to_frame, air, sensor, true)
     }
 
     /// Light that comes from above the air and depends on the altitude alone; x east, y north, z up.
-    pub fn round_above(light: D, air: &DiffuseAir) -> Self {
-        Self { round: true, ..Self::new(light, DMat3::IDENTITY, air, true) }
+    pub fn round_above(light: D, air: &DiffuseAir, sensor: &Sensor) -> Self {
+        Self { round: true, ..Self::new(light, DMat3::IDENTITY, air, sensor, true) }
     }
 
     /// Light that is made in the air, as it arrives, and depends on the altitude alone; x east, y north, z up.
-    pub fn round_within(light: D, air: &DiffuseAir) -> Self {
-        Self { round: true, ..Self::new(light, DMat3::IDENTITY, air, false) }
+    pub fn round_within(light: D, air: &DiffuseAir, sensor: &Sensor) -> Self {
+        Self { round: true, ..Self::new(light, DMat3::IDENTITY, air, sensor, false) }
     }
 
-    fn new(light: D, to_frame: DMat3, air: &DiffuseAir, above: bool) -> Self {
-        let fine: Vec<f64> = (observer::RANGE_NM.0..=observer::RANGE_NM.1).map(f64::from).collect();
-        let spectra = light.spectra(&fine);
-        let weights = spectra.each_ref().map(|spectrum| {
-            air.weights.of(|wavelength| spectrum[(wavelength - fine[0]).round().clamp(0.0, fine.len() as f64 - 1.0) as usize])
-        });
+    fn new(light: D, to_frame: DMat3, air: &DiffuseAir, sensor: &Sensor, above: bool) -> Self {
+        let weights = light.spectra(sensor.nanometres()).each_ref().map(|spectrum| sensor.of_means(spectrum));
         let (means, upward_means) = hemisphere_means(&light, to_frame);
         let table = |side: usize| -> Vec<AtAltitude<N>> {
             air.transmittance[side]

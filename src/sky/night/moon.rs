@@ -6,7 +6,7 @@ use crate::celestial::MoonDisc;
 use crate::ephemeris::{Bodies, MoonState};
 use crate::error::Result;
 use crate::light::LightField;
-use crate::spectrum::solar;
+use crate::spectrum::{Sensor, solar};
 use glam::DVec3;
 
 /// Points across the disc at which the part above the horizon is measured.
@@ -19,7 +19,7 @@ struct MoonMap {
     right: DVec3,
     up: DVec3,
     radius: f64,
-    /// X, Y and Z of each component: radiance for the factor 1.
+    /// The three responses to each component: radiance for the factor 1.
     colours: [Vec<f64>; 3],
 }
 
@@ -34,8 +34,8 @@ impl SurfaceMap for MoonMap {
     }
 }
 
-/// The Moon's disc, if any of it is above the horizon.
-pub(in crate::sky) fn moon_disc(sky: &Sky, field: &LightField, bodies: &Bodies) -> Result<Option<Disc>> {
+/// The Moon's disc in the responses of `sensor`, if any of it is above the horizon.
+pub(in crate::sky) fn moon_disc(sky: &Sky, field: &LightField, bodies: &Bodies, sensor: &Sensor) -> Result<Option<Disc>> {
     let MoonState { body, .. } = &bodies.moon;
     let radius = (0.5 * body.angular_diameter_deg).to_radians();
     let vertical_radius = radius * sky.refraction().flattening(body.altitude_deg, body.angular_diameter_deg);
@@ -48,7 +48,7 @@ pub(in crate::sky) fn moon_disc(sky: &Sky, field: &LightField, bodies: &Bodies) 
     let mut colours: [Vec<f64>; 3] = Default::default();
     for component in 0..moon.components() {
         let source = |wavelength| solar::irradiance(wavelength, 1.0) * moon.spectrum(component, wavelength);
-        let weights = sky.atmosphere().weights().of(source);
+        let weights = sensor.of(source);
         for (k, colours) in colours.iter_mut().enumerate() {
             colours.push(transmittance.iter().zip(&weights).map(|(transmittance, weight)| transmittance * weight[k]).sum());
         }
@@ -60,7 +60,7 @@ pub(in crate::sky) fn moon_disc(sky: &Sky, field: &LightField, bodies: &Bodies) 
     let whole = [0, 1, 2].map(|k| integrals.iter().zip(&map.colours[k]).map(|(integral, colour)| integral * colour).sum::<f64>());
     let share = visible_share(&map, (horizon - altitude) / vertical_radius);
     let irradiance: [f64; 3] = std::array::from_fn(|k| whole[k] * share[k]);
-    if irradiance[1] <= 0.0 {
+    if irradiance.iter().all(|&value| value <= 0.0) {
         return Ok(None);
     }
     Ok(Some(Disc {
@@ -73,7 +73,7 @@ pub(in crate::sky) fn moon_disc(sky: &Sky, field: &LightField, bodies: &Bodies) 
     }))
 }
 
-/// Share of the light of X, Y and Z that comes from above `from` (in radii, upwards from the centre).
+/// Share of each response's light that comes from above `from` (in radii, upwards from the centre).
 fn visible_share(map: &MoonMap, from: f64) -> [f64; 3] {
     if from <= -1.0 {
         return [1.0; 3];

@@ -6,6 +6,7 @@ use crate::celestial::{StarSpectra, planet_irradiance, stars_to};
 use crate::ephemeris::{Bodies, StarFrame, direction_from_horizontal, horizontal_from_direction};
 use crate::error::Result;
 use crate::light::LightField;
+use crate::spectrum::Sensor;
 use crate::time::JulianDate;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -39,7 +40,7 @@ impl Extinction {
         (node, position - node as f64)
     }
 
-    /// XYZ at each altitude of light of irradiance `spectrum`; `weights` make XYZ of spectral values.
+    /// Responses at each altitude to light of irradiance `spectrum`; `weights` make them of spectral values.
     fn colours(&self, spectrum: &[f64], weights: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let colour = |row: &Vec<f64>| {
             let mut xyz = [0.0; 3];
@@ -57,10 +58,10 @@ impl Extinction {
     }
 }
 
-/// The planets above the horizon.
-pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies) -> Result<Vec<Point>> {
+/// The planets above the horizon, in the responses of `sensor`.
+pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies, sensor: &Sensor) -> Result<Vec<Point>> {
     let nodes = &sky.atmosphere().profile().wavelengths_nm;
-    let weights = sky.atmosphere().weights().of(|_| 1.0);
+    let weights = sensor.of(|_| 1.0);
     let horizon = sky.horizon();
     let points = bodies.planets.iter().filter_map(|state| {
         let altitude = state.body.apparent_altitude_deg.to_radians();
@@ -76,31 +77,58 @@ pub(super) fn planet_points(sky: &Sky, field: &LightField, bodies: &Bodies) -> R
     Ok(points.collect())
 }
 
-/// The stars of magnitude V <= `limit` above the horizon.
-pub(super) fn star_points(sky: &Sky, field: &LightField, bodies: &Bodies, limit: f64) -> Result<Vec<Point>> {
-    let nodes = &sky.atmosphere().profile().wavelengths_nm;
-    let weights = sky.atmosphere().weights().of(|_| 1.0);
-    let spectra = StarSpectra::new(nodes);
-    let extinction = Extinction::new(sky, field);
-    let colours: Vec<Vec<[f64; 3]>> =
-        (0..spectra.row_count()).into_par_iter().map(|row| extinction.colours(spectra.row(row), &weights)).collect();
-    let frame = StarFrame::new(&bodies.observer);
-    let years = (bodies.observer.tt() - JulianDate::from_days(2_451_545.0)) / 365.25;
-    let lowest = sky.refraction().horizon_true_altitude_deg().to_radians().sin() - 1e-6;
-    let point = |star: &crate::celestial::Star| {
-        let airless = frame.direction_of(star.direction(years));
-        if airless.z < lowest {
-            return None;
-        }
-        let (direction, altitude) = refracted(sky, airless);
-        if altitude < extinction.horizon {
-            return None;
-        }
-        let level = 10_f64.powf(-0.4 * star.v_magnitude);
-        let irradiance = extinction.mix(&colours[spectra.row_of(star.b_minus_v)], altitude).map(|value| value * level);
-        Some(Point { direction, irradiance })
-    };
-    Ok(stars_to(limit).par_iter().filter_map(point).collect())
+/// The stars above the horizon, before anything looks at their light.
+pub(super) struct SeenStars {
+    stars: Vec<SeenStar>,
+    spectra: StarSpectra,
+    extinction: Extinction,
+}
+
+struct SeenStar {
+    /// Refracted.
+    direction: DVec3,
+    /// Apparent [radians].
+    altitude: f64,
+    /// Of the spectra.
+    row: usize,
+    /// Light over that of a star of V = 0.
+    level: f64,
+}
+
+impl SeenStars {
+    /// Those of magnitude V <= `limit`.
+    pub fn new(sky: &Sky, field: &LightField, bodies: &Bodies, limit: f64) -> Self {
+        let spectra = StarSpectra::new(&sky.atmosphere().profile().wavelengths_nm);
+        let extinction = Extinction::new(sky, field);
+        let frame = StarFrame::new(&bodies.observer);
+        let years = (bodies.observer.tt() - JulianDate::from_days(2_451_545.0)) / 365.25;
+        let lowest = sky.refraction().horizon_true_altitude_deg().to_radians().sin() - 1e-6;
+        let seen = |star: &crate::celestial::Star| {
+            let airless = frame.direction_of(star.direction(years));
+            if airless.z < lowest {
+                return None;
+            }
+            let (direction, altitude) = refracted(sky, airless);
+            if altitude < extinction.horizon {
+                return None;
+            }
+            let level = 10_f64.powf(-0.4 * star.v_magnitude);
+            Some(SeenStar { direction, altitude, row: spectra.row_of(star.b_minus_v), level })
+        };
+        Self { stars: stars_to(limit).par_iter().filter_map(seen).collect(), spectra, extinction }
+    }
+
+    /// As points in the responses of `sensor`.
+    pub fn points(&self, sensor: &Sensor) -> Vec<Point> {
+        let weights = sensor.of(|_| 1.0);
+        let rows = (0..self.spectra.row_count()).into_par_iter();
+        let colours: Vec<Vec<[f64; 3]>> = rows.map(|row| self.extinction.colours(self.spectra.row(row), &weights)).collect();
+        let point = |star: &SeenStar| {
+            let irradiance = self.extinction.mix(&colours[star.row], star.altitude).map(|value| value * star.level);
+            Point { direction: star.direction, irradiance }
+        };
+        self.stars.par_iter().map(point).collect()
+    }
 }
 
 /// Where a point is seen, and its apparent altitude [radians].
