@@ -11,7 +11,7 @@
 //! Instead of latitude and longitude (and elevation), `"place": "Lund, Sweden"` names the place, or has its coordinates in any spelling
 //! ([`crate::places::locate`]); it is written out as the numbers that it stands for.
 //! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
-//! is a default; an unknown key is an error.
+//! is a default; an unknown key is an error, and so is what would be ignored, such as `night.bortle` where `night.when` is never.
 
 mod describe;
 mod ignored;
@@ -21,6 +21,7 @@ pub mod schema;
 mod source;
 
 pub use describe::describe;
+pub use ignored::Ignored;
 pub use parameters::{AIR, FILE, IMAGE, NIGHT, PLACE_AND_TIME, SECTIONS, Section, parameters};
 
 use crate::atmosphere::AirParameters;
@@ -139,8 +140,8 @@ fn yes() -> bool {
 }
 
 impl Scene {
-    /// Reads and checks a configuration file: JSON, or a picture of skyprobe (EXR, HDR), whose header holds the configuration that it was made from. `-` is
-    /// the standard input.
+    /// Reads and checks a configuration file: JSON, or a picture of skyprobe (EXR, HDR), whose header holds the configuration that it was made from; what had no
+    /// say in the picture is left out then. `-` is the standard input.
     ///
     /// # Errors
     /// [`Error::Input`] if the file cannot be read or holds no configuration, for `config`, or as [`Scene::from_json`], with the name of the file.
@@ -155,14 +156,20 @@ impl Scene {
             }
             other => other,
         };
-        Self::from_json(&source::text_of(path, &name)?).map_err(in_file)
+        let source = source::text_of(path, &name)?;
+        if !source.is_header {
+            return Self::from_json(&source.text).map_err(in_file);
+        }
+        // Headers of former versions tell of settings that were out of force.
+        let scene = json::parse("config", &source.text).and_then(|value| Self::read_value(&value)).map_err(in_file)?;
+        Ok(scene.without_ignored())
     }
 
     /// Reads and checks a configuration. What is missing has its default; place and time may be missing, too.
     ///
     /// # Errors
-    /// [`Error::Input`] for text that is not JSON, an unknown key, a key that stands twice, a value of the wrong type or out of range; it names the key with
-    /// its table, such as `atmosphere.turbidity`.
+    /// [`Error::Input`] for text that is not JSON, an unknown key, a key that stands twice, a value of the wrong type or out of range, or one that would be
+    /// ignored ([`Scene::ignored`]); it names the key with its table, such as `atmosphere.turbidity`.
     pub fn from_json(text: &str) -> Result<Self> {
         Self::from_value(&json::parse("config", text)?)
     }
@@ -172,6 +179,27 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`].
     pub fn from_value(value: &Value) -> Result<Self> {
+        let scene = Self::read_value(value)?;
+        scene.refuse_ignored()?;
+        Ok(scene)
+    }
+
+    /// As [`Scene::from_value`], of a scene over which other values were laid: what would be ignored is an error if `is_given` says of its way, such as
+    /// `night.bortle`, that it is one of these, and left out if it was there before and they put it out of force.
+    ///
+    /// # Errors
+    /// As [`Scene::from_value`].
+    pub(crate) fn from_laid_over(value: &Value, is_given: impl Fn(&str) -> bool) -> Result<Self> {
+        let scene = Self::read_value(value)?;
+        let ignored = scene.ignored();
+        match ignored.iter().find(|ignored| is_given(&ignored.path)) {
+            Some(given) => Err(given.error()),
+            None => Ok(scene.without(&ignored)),
+        }
+    }
+
+    /// As [`Scene::from_value`], also with what would be ignored.
+    fn read_value(value: &Value) -> Result<Self> {
         let document: Document = json::read("", value)?;
         let mut config = Self {
             latitude: document.latitude,
@@ -287,12 +315,13 @@ impl Scene {
         Value::Object(map)
     }
 
-    /// Checks the range of every value that is given, and that the Sun is not given twice.
+    /// Checks the range of every value that is given, that the Sun is not given twice, and that nothing is asked for that would be ignored ([`Scene::ignored`]).
     ///
     /// # Errors
     /// [`Error::Input`] that names the parameter.
     pub fn validate(&self) -> Result<()> {
-        self.validate_sections([""; 4])
+        self.validate_sections([""; 4])?;
+        self.refuse_ignored()
     }
 
     /// As [`Scene::validate`], with the names of the tables in front of the parameters in errors.

@@ -44,12 +44,9 @@ impl ConfigOptions {
     }
 }
 
-/// Says what had to be assumed about the time, and what will have no effect.
-pub fn tell_assumptions(scene: &Scene) {
+/// Says what had to be assumed about the time.
+pub fn tell_time(scene: &Scene) {
     if let Some(notice) = scene.time_notice() {
         complain(&format!("note: time: {notice}"));
-    }
-    for sentence in scene.ignored() {
-        complain(&format!("note: without effect: {sentence}"));
     }
 }

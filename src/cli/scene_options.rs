@@ -41,18 +41,30 @@ struct Given {
     value: Value,
 }
 
+impl Given {
+    /// Whether it says what is found at `path`, or a key of the table there.
+    fn says(&self, path: &str) -> bool {
+        let own = self.row.path();
+        match (&self.value, path.strip_prefix(&own).map(|rest| rest.strip_prefix('.').unwrap_or(rest))) {
+            (Value::Object(table), Some(key)) => table.contains_key(key),
+            (_, rest) => rest == Some(""),
+        }
+    }
+}
+
 impl<S: Sections> SceneOptions<S> {
-    /// `scene` with what was given in place of what it says; `now` becomes the instant, and is told.
+    /// `scene` with what was given in place of what it says, and without what that puts out of force; `now` becomes the instant, and is told.
     ///
     /// # Errors
-    /// As [`Scene::from_value`], with the options' names for what was given.
+    /// As [`Scene::from_value`], with the options' names for what was given; options that would be ignored are errors.
     pub fn over(&self, scene: Scene) -> Result<Scene> {
         let label = scene.place_label.clone();
         let mut value = scene.to_value();
         if let Some(map) = value.as_object_mut() {
             self.lay_over(map)?;
         }
-        let mut scene = Scene::from_value(&value).map_err(|error| self.as_typed(error))?;
+        let is_typed = |path: &str| self.given.iter().any(|given| given.says(path));
+        let mut scene = Scene::from_laid_over(&value, is_typed).map_err(|error| self.as_typed(error))?;
         if !["place", "latitude", "longitude", "altitude_deg"].iter().any(|name| self.has(name)) {
             scene.place_label = label;
         }
@@ -65,7 +77,7 @@ impl<S: Sections> SceneOptions<S> {
     /// The same error with the name of the option where the parameter was given by one.
     pub fn as_typed(&self, error: Error) -> Error {
         let Error::Input { parameter, value, allowed } = error else { return error };
-        let named = self.given.iter().find(|given| given.row.name == parameter || given.row.path() == parameter);
+        let named = self.given.iter().find(|given| given.row.name == parameter || given.says(&parameter));
         let parameter = named.map_or(parameter, |given| format!("--{}", given.option.name));
         Error::Input { parameter, value, allowed }
     }

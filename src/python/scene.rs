@@ -11,7 +11,6 @@ use crate::probe;
 use crate::progress::Progress;
 use crate::scene;
 use crate::sky::Cache;
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use serde_json::{Map, Value};
@@ -23,7 +22,7 @@ use std::sync::Arc;
 /// the headers of pictures hold.
 ///
 /// Keys are those of a configuration (``skyprobe schema``); tables such as ``atmosphere`` are dictionaries. What is left out has its default; unknown keys, values
-/// out of range and what contradicts itself are an :class:`InputError`.
+/// out of range, what contradicts itself and what would be ignored, such as ``bortle`` under a Sun that is put, are an :class:`InputError`.
 ///
 /// >>> scene = sp.Scene(place="Lund, Sweden", time="2005-06-21T13:00", atmosphere={"turbidity": 3}, probe={"width": 512})
 /// >>> probe = scene.render()
@@ -88,14 +87,16 @@ impl Scene {
         values::object(py, &self.inner.to_value())
     }
 
-    /// The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away.
+    /// The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force,
+    /// as ``night={"when": "never"}`` does the rest of the night, is left out.
     ///
     /// >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
     #[pyo3(signature = (**keys))]
     fn replace(&self, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         fork::check()?;
         let Value::Object(mut map) = self.inner.to_value() else { return Err(InputError::new_err("scene: no table")) };
-        for (key, value) in keys.map_or(Ok(Map::new()), values::table)? {
+        let changes = Value::Object(keys.map_or(Ok(Map::new()), values::table)?);
+        for (key, value) in changes.as_object().cloned().unwrap_or_default() {
             match (map.get_mut(&key), value) {
                 (_, Value::Null) => drop(map.shift_remove(&key)),
                 (Some(Value::Object(table)), Value::Object(changes)) => {
@@ -109,7 +110,8 @@ impl Scene {
                 (_, value) => drop(map.insert(key, value)),
             }
         }
-        Self::of_map(map)
+        let is_given = |path: &str| changes.pointer(&format!("/{}", path.replace('.', "/"))).is_some_and(|value| !value.is_null());
+        Ok(Self { inner: scene::Scene::from_laid_over(&Value::Object(map), is_given)? })
     }
 
     /// The air of the scene, not solved yet. One air serves all scenes that differ in place, time, night and picture only.
@@ -125,7 +127,7 @@ impl Scene {
         Ok(Atmosphere { inner: Arc::new(air) })
     }
 
-    /// The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
+    /// The sky of the scene.
     ///
     /// Parameters
     /// ----------
@@ -138,10 +140,6 @@ impl Scene {
             Some(air) => air,
             None => Bound::new(py, self.atmosphere(true)?)?,
         };
-        for sentence in self.inner.ignored() {
-            let message = std::ffi::CString::new(format!("without effect: {sentence}"))?;
-            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)?;
-        }
         let inner = self.inner.sky(air.get().inner.clone())?;
         Sky::of(py, inner, air.unbind(), self.inner.sun_model, self.inner.light.model)
     }

@@ -1,0 +1,190 @@
+//! Random scenes, made from the table of parameters: each row is varied as its kind allows.
+
+use super::super::{Ignored, Scene, parameters};
+use crate::error::Error;
+use crate::io::tests::gradient;
+use crate::io::{FileOptions, Metadata, save};
+use crate::parameter::{Kind, Parameter};
+use crate::probe::ProbeSettings;
+use proptest::prelude::*;
+use proptest::sample::{select, subsequence};
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+const TIMES: [&str; 5] = ["2005-06-21T13:00:00+02:00", "1987-01-02T03:04", "2005-01-25", "2024-02-29 00:30Z", "2011-12-30T12:00[Europe/Paris]"];
+const ZONES: [&str; 3] = ["Europe/Stockholm", "UTC", "America/St_Johns"];
+const PLACES: [&str; 4] = ["Lund, Sweden", "55.71, 13.19", "24 37 38 S 70 24 15 W", "Santorini"];
+
+/// Any value that `row` allows by itself.
+fn any_value(row: &Parameter) -> BoxedStrategy<Value> {
+    let words = |words: &'static [&'static str]| select(words).prop_map(Value::from);
+    match row.kind {
+        Kind::Number { low, high } => prop_oneof![4 => low..=high, 1 => Just(low), 1 => Just(high)].prop_map(Value::from).boxed(),
+        Kind::Whole { low, high } => (low..=high).prop_map(Value::from).boxed(),
+        Kind::Flag => any::<bool>().prop_map(Value::from).boxed(),
+        Kind::Words(list) => words(list).boxed(),
+        Kind::WordsOrNumber { words: list, low, high } => prop_oneof![words(list), (low..=high).prop_map(Value::from)].boxed(),
+        Kind::Direction => (-90.0..=90.0_f64, -360.0..=360.0_f64).prop_map(|(altitude, azimuth)| json!([altitude, azimuth])).boxed(),
+        Kind::Ascending { low, high } => prop::collection::vec(low..=high, 1..6)
+            .prop_map(|mut numbers| {
+                numbers.sort_by(f64::total_cmp);
+                json!(numbers)
+            })
+            .boxed(),
+        Kind::Factors { words: list, low, high } => (subsequence(list.to_vec(), 0..=list.len()), low..=high)
+            .prop_map(|(names, factor)| names.into_iter().map(|name| (name.to_owned(), json!(factor))).collect::<Map<_, _>>().into())
+            .boxed(),
+        Kind::Files => prop::collection::vec("[a-z ]{1,8}\\.(exr|hdr|png)", 0..3).prop_map(|names| json!(names)).boxed(),
+        Kind::Text => match row.name {
+            "time" => select(&TIMES[..]).prop_map(Value::from).boxed(),
+            "zone" => select(&ZONES[..]).prop_map(Value::from).boxed(),
+            "place" => select(&PLACES[..]).prop_map(Value::from).boxed(),
+            other => panic!("no texts for {other}"),
+        },
+    }
+}
+
+/// Each row is given or not; the Sun is put, or there are place and time.
+fn any_document() -> impl Strategy<Value = Map<String, Value>> {
+    let rows: Vec<_> = parameters().map(|row| prop::option::of(any_value(row))).collect();
+    (rows, prop::bool::weighted(0.3)).prop_map(|(values, is_put)| {
+        let mut document = Map::new();
+        for (row, value) in parameters().zip(values) {
+            let is_of_place = ["place", "latitude", "longitude", "time"].contains(&row.name);
+            // A Sun is put with both of its angles.
+            let value = if row.table == "sun" { is_put.then(|| value.unwrap_or(json!(20.0))) } else { value };
+            let Some(value) = value.filter(|_| !(is_put && is_of_place)) else { continue };
+            if row.table.is_empty() {
+                document.insert(row.name.to_owned(), value);
+            } else {
+                let table = document.entry(row.table).or_insert_with(|| json!({}));
+                table.as_object_mut().unwrap().insert(row.name.to_owned(), value);
+            }
+        }
+        document
+    })
+}
+
+/// Takes what stands at `path` out of `document`; whether there was something.
+fn remove(document: &mut Map<String, Value>, path: &str) -> bool {
+    match path.split_once('.') {
+        None => document.shift_remove(path).is_some(),
+        Some((table, name)) => {
+            document.get_mut(table).and_then(Value::as_object_mut).is_some_and(|table| table.shift_remove(name).is_some())
+        }
+    }
+}
+
+/// The scene of `document`, without the keys that contradict others: each error names one that is there.
+fn scene_of(mut document: Map<String, Value>) -> Scene {
+    loop {
+        match Scene::read_value(&Value::Object(document.clone())) {
+            Ok(scene) => return scene,
+            Err(Error::Input { parameter, value, allowed }) => {
+                // A preset without aerosol stands for the kind that it has.
+                let is_found = remove(&mut document, &parameter)
+                    || parameter == "atmosphere.aerosol" && remove(&mut document, "atmosphere.preset");
+                assert!(is_found, "{parameter} = {value}: must be {allowed}");
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    any_document().prop_map(scene_of)
+}
+
+/// What `scene` says, by the ways to it.
+fn said(scene: &Scene) -> BTreeMap<String, Value> {
+    let mut said = BTreeMap::new();
+    for (key, value) in scene.to_value().as_object().unwrap() {
+        match value.as_object() {
+            Some(table) => said.extend(table.iter().map(|(name, value)| (format!("{key}.{name}"), value.clone()))),
+            None => drop(said.insert(key.clone(), value.clone())),
+        }
+    }
+    said
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn what_is_written_reads_back_to_the_last_digit(scene in any_scene()) {
+        let kept = Scene { place_label: None, ..scene.without_ignored() };
+        prop_assert_eq!(&Scene::from_json(&kept.to_json()).unwrap(), &kept);
+        kept.validate().unwrap();
+        // What is refused is what is left out, and nothing else is.
+        let ignored = scene.ignored();
+        match ignored.first() {
+            None => prop_assert_eq!(said(&scene), said(&kept)),
+            Some(first) => {
+                let told = Scene::from_json(&scene.to_json()).unwrap_err().to_string();
+                prop_assert_eq!(told, first.error().to_string());
+                let default = said(&Scene::default());
+                let mut rest = said(&scene);
+                for Ignored { path, .. } in &ignored {
+                    rest.remove(path);
+                    rest.extend(default.get(path).map(|value| (path.clone(), value.clone())));
+                }
+                prop_assert_eq!(rest, said(&kept));
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn headers_of_pictures_hold_every_scene(scene in any_scene()) {
+        let folder = tempfile::tempdir().unwrap();
+        let probe = gradient(ProbeSettings { width: 64, ..Default::default() });
+        let kept = Scene { place_label: None, ..scene.without_ignored() };
+        // Also one with settings that were out of force.
+        for (written, name) in [(&kept, "a.exr"), (&kept, "a.hdr"), (&scene, "b.exr")] {
+            let metadata = Metadata { config_json: Some(written.to_value().to_string()), ..Default::default() };
+            let path = folder.path().join(name);
+            save(&path, &probe, &FileOptions::default(), &metadata).unwrap();
+            prop_assert_eq!(&Scene::read(&path).unwrap(), &kept);
+        }
+    }
+
+    #[test]
+    fn a_sky_knows_its_scene(scene in any_scene()) {
+        let scene = scene.without_ignored();
+        let is_whole = scene.sun.is_some() || scene.place().is_ok() && scene.time.is_some();
+        prop_assume!(is_whole);
+        let Ok(air) = scene.atmosphere() else { return Ok(()) };
+        let sky = scene.sky(Arc::new(air)).unwrap();
+        let known = Scene::of(&sky, scene.sun_model, &scene.light, &scene.probe).unwrap();
+        let wanted = Scene { time: known.time.clone(), zone: known.zone.clone(), ..scene };
+        let wanted = Scene { place_label: None, file: FileOptions::default(), output: Vec::new(), ..wanted };
+        let turned = |scene: &Scene| scene.sun.map(|sun| sun.azimuth_deg.rem_euclid(360.0));
+        prop_assert_eq!(turned(&known), turned(&wanted));
+        prop_assert_eq!(Scene { sun: wanted.sun, ..known }, wanted);
+    }
+}
+
+#[test]
+fn every_parameter_is_varied() {
+    let mut runner = TestRunner::deterministic();
+    let mut counts: BTreeMap<String, u32> = parameters().map(|row| (row.path(), 0)).collect();
+    let default = said(&Scene::default());
+    for _ in 0..300 {
+        let scene = any_scene().new_tree(&mut runner).unwrap().current().without_ignored();
+        for (path, value) in said(&scene) {
+            if default.get(&path) != Some(&value) {
+                let row = if path.starts_with("layers.") { "layers".to_owned() } else { path };
+                *counts.get_mut(&row).unwrap_or_else(|| panic!("{row} is no parameter")) += 1;
+            }
+        }
+        // It is written as the numbers that it stands for.
+        *counts.get_mut("place").unwrap() += u32::from(scene.place_label.is_some());
+    }
+    assert!(counts.values().all(|&count| count >= 5), "{counts:?}");
+}
