@@ -74,12 +74,19 @@ impl<S: Sections> SceneOptions<S> {
         Ok(scene)
     }
 
-    /// The same error with the name of the option where the parameter was given by one.
+    /// The same error with the names of options where the parameter was given by one.
     pub fn as_typed(&self, error: Error) -> Error {
         let Error::Input { parameter, value, allowed } = error else { return error };
-        let named = self.given.iter().find(|given| given.row.name == parameter || given.says(&parameter));
-        let parameter = named.map_or(parameter, |given| format!("--{}", given.option.name));
-        Error::Input { parameter, value, allowed }
+        let Some(named) = self.given.iter().find(|given| given.row.name == parameter || given.says(&parameter)) else {
+            return Error::Input { parameter, value, allowed };
+        };
+        let key = parameter.strip_prefix(&format!("{}.", named.row.path())).map_or_else(String::new, |key| format!(" {key}"));
+        let in_tables = S::SECTIONS.iter().flat_map(Section::parameters).filter(|row| !row.table.is_empty());
+        let allowed = in_tables.fold(allowed, |text, row| match &row.option {
+            Some(option) => text.replace(&row.path(), &format!("--{}", option.name)),
+            None => text,
+        });
+        Error::Input { parameter: format!("--{}{key}", named.option.name), value, allowed }
     }
 
     fn has(&self, name: &str) -> bool {

@@ -110,7 +110,8 @@ impl Scene {
                 (_, value) => drop(map.insert(key, value)),
             }
         }
-        let is_given = |path: &str| changes.pointer(&format!("/{}", path.replace('.', "/"))).is_some_and(|value| !value.is_null());
+        let is_given =
+            |path: &str| changes.pointer(&format!("/{}", path.replace('.', "/"))).is_some_and(|value| !value.is_null());
         Ok(Self { inner: scene::Scene::from_laid_over(&Value::Object(map), is_given)? })
     }
 

@@ -1,13 +1,13 @@
 //! What in a scene would have no say in its picture: an error where it was asked for, left out where it is merely there.
 //!
 //! A value that asks for what comes anyway is none of it: defaults, and words or numbers that leave out what is not there (`night.when` never where the Sun is put,
-//! a layer's factor of 0).
+//! a layer's factor of 0, `probe.ground` off for the upper half).
 
 use super::Scene;
 use crate::atmosphere::AerosolType;
 use crate::error::{Error, Result};
 use crate::io::Format;
-use crate::probe::{Projection, Rows};
+use crate::probe::{Extent, GroundView, Projection, Rows};
 use crate::sky::{Layer, Model, NightOptions, When};
 use crate::spectrum::{ColorSpace, Gamut};
 use serde_json::Value;
@@ -26,7 +26,9 @@ pub struct Ignored {
 impl Ignored {
     /// That it has to be left out.
     pub fn error(&self) -> Error {
-        Error::input(self.path.as_str(), &self.value, format!("left out {}", self.why))
+        // A number as it is typed.
+        let value = self.value.as_f64().map_or_else(|| self.value.to_string(), |number| number.to_string());
+        Error::input(self.path.as_str(), value, format!("left out {}", self.why))
     }
 }
 
@@ -143,6 +145,9 @@ impl Scene {
     fn add_picture(&self, list: &mut List) {
         if self.probe.projection == Projection::Fisheye && self.probe.rows != Rows::Centre {
             list.add(["probe.rows"], "for a fisheye");
+        }
+        if self.probe.extent == Extent::Upper && self.probe.ground == GroundView::Mirrored {
+            list.add(["probe.ground"], "where probe.extent is upper, which shows no ground");
         }
         if self.probe.color_space == ColorSpace::Xyz && self.probe.gamut == Gamut::Clip {
             list.add(["probe.gamut"], "for xyz, which holds every colour");

@@ -56,22 +56,50 @@ fn what_would_be_ignored_is_refused_by_name_with_the_reason() {
     let sun = r#""sun": {"altitude_deg": 5, "azimuth_deg": 0}"#;
     for (keys, start) in [
         (r#""night": {"when": "never", "bortle": 4}"#, "night.bortle = 4: must be left out where night.when is never"),
-        (r#""night": {"when": "always"}, "model": "preetham""#, r#"night.when = "always": must be left out for the model preetham"#),
-        (r#""night": {"led_share": 1}"#, "night.led_share = 1.0: must be left out where neither night.bortle"),
-        (r#""night": {"star_limit": 6}, SUN"#, "night.star_limit = 6.0: must be left out where the Sun is put, which has no night"),
+        (
+            r#""night": {"when": "always"}, "model": "preetham""#,
+            r#"night.when = "always": must be left out for the model preetham"#,
+        ),
+        (r#""night": {"led_share": 1}"#, "night.led_share = 1: must be left out where neither night.bortle"),
+        (r#""night": {"star_limit": 6}, SUN"#, "night.star_limit = 6: must be left out where the Sun is put, which has no night"),
         (r#""zone": "UTC", SUN"#, r#"zone = "UTC": must be left out where the Sun is put"#),
         (r#""sun_model": "thesis", SUN"#, r#"sun_model = "thesis": must be left out where the Sun is put"#),
-        (r#""layers": {"sky": 2, "moon": 2}, SUN"#, "layers.moon = 2.0: must be left out where the Sun is put"),
-        (r#""layers": {"light_pollution": 2}"#, "layers.light_pollution = 2.0: must be left out where neither"),
-        (r#""atmosphere": {"asymmetry": 0.5, "preset": "pure"}"#, "atmosphere.asymmetry = 0.5: must be left out where the aerosol is none"),
-        (r#""atmosphere": {"relative_humidity": 5, "preset": "thesis"}"#, "atmosphere.relative_humidity = 5.0: must be left out for the aerosol thesis"),
-        (r#""atmosphere": {"stratospheric_altitude_km": 25}"#, "atmosphere.stratospheric_altitude_km = 25.0: must be left out where"),
-        (r#""atmosphere": {"ozone_du": 250}, "model": "preetham""#, "atmosphere.ozone_du = 250.0: must be left out for the model preetham"),
-        (r#""atmosphere": {"quality": "high"}, "model": "thesis""#, r#"atmosphere.quality = "high": must be left out for the model thesis"#),
+        (r#""layers": {"sky": 2, "moon": 2}, SUN"#, "layers.moon = 2: must be left out where the Sun is put"),
+        (r#""layers": {"light_pollution": 2}"#, "layers.light_pollution = 2: must be left out where neither"),
+        (
+            r#""atmosphere": {"asymmetry": 0.5, "preset": "pure"}"#,
+            "atmosphere.asymmetry = 0.5: must be left out where the aerosol is none",
+        ),
+        (
+            r#""atmosphere": {"relative_humidity": 5, "preset": "thesis"}"#,
+            "atmosphere.relative_humidity = 5: must be left out for the aerosol thesis",
+        ),
+        (
+            r#""atmosphere": {"stratospheric_altitude_km": 25}"#,
+            "atmosphere.stratospheric_altitude_km = 25: must be left out where",
+        ),
+        (
+            r#""atmosphere": {"ozone_du": 250}, "model": "preetham""#,
+            "atmosphere.ozone_du = 250: must be left out for the model preetham",
+        ),
+        (
+            r#""atmosphere": {"quality": "high"}, "model": "thesis""#,
+            r#"atmosphere.quality = "high": must be left out for the model thesis"#,
+        ),
         (r#""probe": {"projection": "fisheye", "rows": "corner"}"#, r#"probe.rows = "corner": must be left out for a fisheye"#),
+        (
+            r#""probe": {"extent": "upper", "ground": "mirrored"}"#,
+            r#"probe.ground = "mirrored": must be left out where probe.extent is upper"#,
+        ),
         (r#""probe": {"color_space": "xyz", "gamut": "clip"}"#, r#"probe.gamut = "clip": must be left out for xyz"#),
-        (r#""file": {"layers": true}, "output": "a.hdr""#, "file.layers = true: must be left out without an output that ends in .exr"),
-        (r#""file": {"exposure_stops": 1}, "output": ["a.exr"]"#, "file.exposure_stops = 1.0: must be left out without an output that ends in .png"),
+        (
+            r#""file": {"layers": true}, "output": "a.hdr""#,
+            "file.layers = true: must be left out without an output that ends in .exr",
+        ),
+        (
+            r#""file": {"exposure_stops": 1}, "output": ["a.exr"]"#,
+            "file.exposure_stops = 1: must be left out without an output that ends in .png",
+        ),
     ] {
         let message = message(&format!("{{{}}}", keys.replace("SUN", sun)));
         assert!(message.starts_with(start), "{keys}: {message}");
@@ -84,6 +112,7 @@ fn what_would_be_ignored_is_refused_by_name_with_the_reason() {
         r#""atmosphere": {"stratospheric_altitude_km": 25, "preset": "volcanic"}"#,
         r#""atmosphere": {"stratospheric_altitude_km": 25, "stratospheric_aod550": 0}"#,
         r#""probe": {"color_space": "xyz", "gamut": "keep"}"#,
+        r#""probe": {"extent": "upper", "ground": "off"}"#,
         r#""file": {"layers": true, "exposure_stops": 1}"#,
         r#""zone": "UTC""#,
     ] {

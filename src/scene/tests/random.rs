@@ -14,7 +14,8 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-const TIMES: [&str; 5] = ["2005-06-21T13:00:00+02:00", "1987-01-02T03:04", "2005-01-25", "2024-02-29 00:30Z", "2011-12-30T12:00[Europe/Paris]"];
+const TIMES: [&str; 5] =
+    ["2005-06-21T13:00:00+02:00", "1987-01-02T03:04", "2005-01-25", "2024-02-29 00:30Z", "2011-12-30T12:00[Europe/Paris]"];
 const ZONES: [&str; 3] = ["Europe/Stockholm", "UTC", "America/St_Johns"];
 const PLACES: [&str; 4] = ["Lund, Sweden", "55.71, 13.19", "24 37 38 S 70 24 15 W", "Santorini"];
 
@@ -27,7 +28,9 @@ fn any_value(row: &Parameter) -> BoxedStrategy<Value> {
         Kind::Flag => any::<bool>().prop_map(Value::from).boxed(),
         Kind::Words(list) => words(list).boxed(),
         Kind::WordsOrNumber { words: list, low, high } => prop_oneof![words(list), (low..=high).prop_map(Value::from)].boxed(),
-        Kind::Direction => (-90.0..=90.0_f64, -360.0..=360.0_f64).prop_map(|(altitude, azimuth)| json!([altitude, azimuth])).boxed(),
+        Kind::Direction => {
+            (-90.0..=90.0_f64, -360.0..=360.0_f64).prop_map(|(altitude, azimuth)| json!([altitude, azimuth])).boxed()
+        }
         Kind::Ascending { low, high } => prop::collection::vec(low..=high, 1..6)
             .prop_map(|mut numbers| {
                 numbers.sort_by(f64::total_cmp);
@@ -35,7 +38,9 @@ fn any_value(row: &Parameter) -> BoxedStrategy<Value> {
             })
             .boxed(),
         Kind::Factors { words: list, low, high } => (subsequence(list.to_vec(), 0..=list.len()), low..=high)
-            .prop_map(|(names, factor)| names.into_iter().map(|name| (name.to_owned(), json!(factor))).collect::<Map<_, _>>().into())
+            .prop_map(|(names, factor)| {
+                names.into_iter().map(|name| (name.to_owned(), json!(factor))).collect::<Map<_, _>>().into()
+            })
             .boxed(),
         Kind::Files => prop::collection::vec("[a-z ]{1,8}\\.(exr|hdr|png)", 0..3).prop_map(|names| json!(names)).boxed(),
         Kind::Text => match row.name {
@@ -78,11 +83,11 @@ fn remove(document: &mut Map<String, Value>, path: &str) -> bool {
     }
 }
 
-/// The scene of `document`, without the keys that contradict others: each error names one that is there.
-fn scene_of(mut document: Map<String, Value>) -> Scene {
+/// `document` without the keys that contradict others, and its scene: each error names one that is there.
+fn scene_of(mut document: Map<String, Value>) -> (Map<String, Value>, Scene) {
     loop {
         match Scene::read_value(&Value::Object(document.clone())) {
-            Ok(scene) => return scene,
+            Ok(scene) => return (document, scene),
             Err(Error::Input { parameter, value, allowed }) => {
                 // A preset without aerosol stands for the kind that it has.
                 let is_found = remove(&mut document, &parameter)
@@ -95,7 +100,21 @@ fn scene_of(mut document: Map<String, Value>) -> Scene {
 }
 
 fn any_scene() -> impl Strategy<Value = Scene> {
-    any_document().prop_map(scene_of)
+    any_document().prop_map(|document| scene_of(document).1)
+}
+
+/// A number as a number, whether it was written as a whole one or not; a factor of 1 for every layer that has none.
+fn plain(value: &Value) -> Value {
+    match value {
+        Value::Number(number) => json!(number.as_f64()),
+        Value::Array(values) => values.iter().map(plain).collect(),
+        Value::Object(table) => table
+            .iter()
+            .filter(|(_, value)| value.as_f64() != Some(1.0))
+            .map(|(key, value)| (key.clone(), plain(value)))
+            .collect(),
+        other => other.clone(),
+    }
 }
 
 /// What `scene` says, by the ways to it.
@@ -112,6 +131,19 @@ fn said(scene: &Scene) -> BTreeMap<String, Value> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn what_is_given_stands_in_what_is_written((document, scene) in any_document().prop_map(scene_of)) {
+        let (written, default) = (scene.to_value(), Scene::default().to_value());
+        // A place is written as the numbers that it stands for.
+        for row in parameters().filter(|row| row.name != "place") {
+            let at = format!("/{}", row.path().replace('.', "/"));
+            let Some(given) = Value::Object(document.clone()).pointer(&at).map(plain) else { continue };
+            let is_left_out = written.pointer(&at).is_none() && (given == json!(0.0) || given == json!({}) || given == json!([]));
+            prop_assert!(is_left_out || written.pointer(&at).map(plain) == Some(given), "{}: {} in {}", row.path(), at, written);
+            prop_assert!(default.pointer(&at).is_none() || written.pointer(&at).is_some() || is_left_out);
+        }
+    }
 
     #[test]
     fn what_is_written_reads_back_to_the_last_digit(scene in any_scene()) {
