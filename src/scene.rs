@@ -335,10 +335,10 @@ impl Scene {
                 value.check(row, &json::join(sun_table, row.name))?;
             }
         }
-        if let Some(text) = &self.time {
-            // Without a place its zone is not known yet; UTC serves to check the spelling.
-            let zone = self.zone.as_deref().unwrap_or("UTC");
-            Time::parse(text, ZoneChoice::Named(zone))?;
+        if self.time.is_some() || self.zone.is_some() {
+            // Without a place its zone is not known yet; UTC serves to check the spelling, and any time that of a zone.
+            let (time, zone) = (self.time.as_deref().unwrap_or("now"), self.zone.as_deref().unwrap_or("UTC"));
+            Time::parse(time, ZoneChoice::Named(zone))?;
         }
         self.file.check_ranges().map_err(|error| json::within(file_table, error))?;
         let SceneAtmosphere { air, wavelengths_nm, .. } = &self.atmosphere;

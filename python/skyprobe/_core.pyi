@@ -685,6 +685,10 @@ class Scene:
 
     def __new__(cls, **keys: object) -> Scene: ...
     @classmethod
+    def without_ignored(cls, **keys: object) -> Scene:
+        """The scene of these keys without what would be ignored: for hosts that keep settings which are out of force."""
+
+    @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from."""
 

@@ -14,7 +14,7 @@ const CONFIGURATION: &str = "Configuration";
 pub struct ConfigOptions {
     /// JSON file to start from, or an .exr or .hdr of skyprobe, whose header holds what it was made from; - is the standard input. Options override its values.
     ///
-    /// The keys are those that --dump-config prints, and the names of the Python arguments. An unknown key is an error.
+    /// The keys are those that --dump-config prints, and the names of the Python arguments. An unknown key is an error, and so is what would be ignored.
     #[arg(long, value_name = "FILE", help_heading = CONFIGURATION)]
     config: Option<PathBuf>,
     /// Print the whole configuration as JSON, with every default written out, and stop.

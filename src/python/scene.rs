@@ -55,6 +55,15 @@ impl Scene {
         Self::of_map(keys.map_or(Ok(Map::new()), values::table)?)
     }
 
+    /// The scene of these keys without what would be ignored: for hosts that keep settings which are out of force.
+    #[classmethod]
+    #[pyo3(signature = (**keys))]
+    fn without_ignored(_class: &Bound<'_, PyType>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        fork::check()?;
+        let map = keys.map_or(Ok(Map::new()), values::table)?;
+        Ok(Self { inner: scene::Scene::from_laid_over(&Value::Object(map), |_| false)? })
+    }
+
     /// The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from.
     #[classmethod]
     fn load(_class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {

@@ -2,6 +2,7 @@ use super::*;
 use proptest::prelude::*;
 use serde_json::json as object;
 
+mod documents;
 mod random;
 
 fn message(text: &str) -> String {
@@ -19,6 +20,7 @@ fn wrong_input_names_the_key_with_its_table() {
         (r#"{"latitude": "north"}"#, r#"latitude = "north": must be a number"#),
         (r#"{"time": "yesterday"}"#, r#"time = "yesterday": must be "#),
         (r#"{"zone": "Mars/Olympus", "time": "2005-06-21T13:00"}"#, r#"zone = "Mars/Olympus": must be "#),
+        (r#"{"zone": "Mars/Olympus"}"#, r#"zone = "Mars/Olympus": must be "#),
         (r#"{"lattitude": 5}"#, "unknown key lattitude = 5: must be left out, or one of latitude, longitude"),
         (r#"{"atmosphere": {"turbidity": -1}}"#, "atmosphere.turbidity = -1: must be a number from 1 to 64"),
         (r#"{"atmosphere": {"turbidty": 2}}"#, "unknown key atmosphere.turbidty = 2: must be left out, or one of preset"),
