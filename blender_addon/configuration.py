@@ -109,7 +109,8 @@ def _without(known, scene):
             continue
         if way not in OF_FILES and not way.startswith("file."):
             raise ValueError(f"{way} = {value!r}: must be {'left out' if own is None else repr(own)}; Blender's sky has no other")
-        notes.append(f"{way} = {value!r}: not in Blender{'' if own is None else f', which has {own!r}'}")
+        why = "no file is written here" if way == "output" else "not in Blender" + ("" if own is None else f", which has {own!r}")
+        notes.append(f"{way} = {value!r}: {why}")
     return notes
 
 

@@ -17,6 +17,7 @@ mod describe;
 mod ignored;
 pub mod json;
 mod parameters;
+mod replace;
 pub mod schema;
 mod source;
 
@@ -184,18 +185,12 @@ impl Scene {
         Ok(scene)
     }
 
-    /// As [`Scene::from_value`], of a scene over which other values were laid: what would be ignored is an error if `is_given` says of its way, such as
-    /// `night.bortle`, that it is one of these, and left out if it was there before and they put it out of force.
+    /// As [`Scene::from_value`], without what would be ignored: for hosts that keep settings which are out of force.
     ///
     /// # Errors
-    /// As [`Scene::from_value`].
-    pub(crate) fn from_laid_over(value: &Value, is_given: impl Fn(&str) -> bool) -> Result<Self> {
-        let scene = Self::read_value(value)?;
-        let ignored = scene.ignored();
-        match ignored.iter().find(|ignored| is_given(&ignored.path)) {
-            Some(given) => Err(given.error()),
-            None => Ok(scene.without(&ignored)),
-        }
+    /// As [`Scene::from_value`], but for what would be ignored.
+    pub fn from_value_in_force(value: &Value) -> Result<Self> {
+        Ok(Self::read_value(value)?.without_ignored())
     }
 
     /// As [`Scene::from_value`], also with what would be ignored.

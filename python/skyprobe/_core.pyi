@@ -706,8 +706,8 @@ class Scene:
         """The scene as a dictionary, every value written out."""
 
     def replace(self, **keys: object) -> Scene:
-        """The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force,
-        as ``night={"when": "never"}`` does the rest of the night, is left out.
+        """The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force
+        is left out: the place of a Sun that is put, one of three amounts of haze, the rest of a night that is never shown.
 
         >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
         """

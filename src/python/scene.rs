@@ -61,7 +61,7 @@ impl Scene {
     fn without_ignored(_class: &Bound<'_, PyType>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         fork::check()?;
         let map = keys.map_or(Ok(Map::new()), values::table)?;
-        Ok(Self { inner: scene::Scene::from_laid_over(&Value::Object(map), |_| false)? })
+        Ok(Self { inner: scene::Scene::from_value_in_force(&Value::Object(map))? })
     }
 
     /// The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from.
@@ -96,32 +96,15 @@ impl Scene {
         values::object(py, &self.inner.to_value())
     }
 
-    /// The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force,
-    /// as ``night={"when": "never"}`` does the rest of the night, is left out.
+    /// The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force
+    /// is left out: the place of a Sun that is put, one of three amounts of haze, the rest of a night that is never shown.
     ///
     /// >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
     #[pyo3(signature = (**keys))]
     fn replace(&self, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         fork::check()?;
-        let Value::Object(mut map) = self.inner.to_value() else { return Err(InputError::new_err("scene: no table")) };
-        let changes = Value::Object(keys.map_or(Ok(Map::new()), values::table)?);
-        for (key, value) in changes.as_object().cloned().unwrap_or_default() {
-            match (map.get_mut(&key), value) {
-                (_, Value::Null) => drop(map.shift_remove(&key)),
-                (Some(Value::Object(table)), Value::Object(changes)) => {
-                    for (inner, value) in changes {
-                        match value {
-                            Value::Null => drop(table.shift_remove(&inner)),
-                            value => drop(table.insert(inner, value)),
-                        }
-                    }
-                }
-                (_, value) => drop(map.insert(key, value)),
-            }
-        }
-        let is_given =
-            |path: &str| changes.pointer(&format!("/{}", path.replace('.', "/"))).is_some_and(|value| !value.is_null());
-        Ok(Self { inner: scene::Scene::from_laid_over(&Value::Object(map), is_given)? })
+        let changes = keys.map_or(Ok(Map::new()), values::table)?;
+        Ok(Self { inner: self.inner.replace(&changes)? })
     }
 
     /// The air of the scene, not solved yet. One air serves all scenes that differ in place, time, night and picture only.

@@ -143,7 +143,7 @@ def told():
         "tolerance": 0.01,
         "probe": {"width": 512, "rows": "corner", "turn_deg": 90.0, "scale": "mitsuba", "color_space": "acescg", "gamut": "keep"},
         "file": {"half": "scale", "exposure_stops": 1.0, "operator": "aces", "layers": True},
-        "output": ["sky.exr"],
+        "output": ["sky.exr", "sky.png"],
     }
     notes = part("configuration").to_settings(content, scene.skyprobe)
     return {"notes": notes, "width": scene.skyprobe.width, "latitude": float(np.degrees(scene.skyprobe.latitude)), "hour": scene.skyprobe.hour}

@@ -43,4 +43,4 @@ def test_random_scenes_go_into_the_panel_and_come_back_or_are_refused_by_name(ho
 def test_panel_module_and_command_line_make_the_same_picture(host, tmp_path):
     binary = os.environ.get("SKYPROBE_BINARY", str(hosts.ROOT / "target" / "release" / "skyprobe"))
     for found in host.run("faces_steps.pictures", folder=str(tmp_path), binary=binary):
-        assert found["module"] == 0.0 and found["panel"] <= 1e-6 and found["header"], found
+        assert found["module"] == 0.0 and found["panel"] <= 1e-6, found

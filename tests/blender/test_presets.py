@@ -55,7 +55,7 @@ def test_what_blender_does_without_is_told(host):
     notes = "\n".join(answer["notes"])
     for fragment in (
         "Lund", "2005-03-27T02:30:00 does not exist", "tolerance = 0.01", "probe.rows = 'corner'", "probe.turn_deg = 90.0", "probe.scale = 'mitsuba'", "probe.color_space = 'acescg'",
-        "probe.gamut = 'keep'", "file.half = 'scale'", "file.exposure_stops = 1.0", "file.operator = 'aces'", "file.layers = True", "output = ['sky.exr']",
+        "probe.gamut = 'keep'", "file.half = 'scale'", "file.exposure_stops = 1.0", "file.operator = 'aces'", "file.layers = True", "output = ['sky.exr', 'sky.png']",
     ):
         assert fragment in notes, fragment
     assert answer["width"] == 512 and answer["latitude"] == pytest.approx(55.706, abs=1e-3) and answer["hour"] == pytest.approx(3.5)
