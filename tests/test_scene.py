@@ -121,6 +121,7 @@ def test_other_values_put_what_was_there_out_of_force(scene: sp.Scene) -> None:
         night.replace(night={"when": "never", "bortle": 5})
 
 
+@pytest.mark.filterwarnings("ignore::skyprobe.TimeWarning")
 def test_random_scenes_are_the_same_in_every_way(tmp_path: pathlib.Path) -> None:
     default = random_scenes.by_way(sp.Scene().to_dict())
     varied: set[str] = set()

@@ -72,11 +72,11 @@ impl<S: Sections> SceneOptions<S> {
             return Error::Input { parameter, value, allowed };
         };
         let key = parameter.strip_prefix(&format!("{}.", named.row.path())).map_or_else(String::new, |key| format!(" {key}"));
-        let in_tables = S::SECTIONS.iter().flat_map(Section::parameters).filter(|row| !row.table.is_empty());
-        let allowed = in_tables.fold(allowed, |text, row| match &row.option {
-            Some(option) => text.replace(&row.path(), &format!("--{}", option.name)),
-            None => text,
-        });
+        let rows = S::SECTIONS.iter().flat_map(Section::parameters).filter(|row| !row.table.is_empty());
+        let mut names: Vec<_> = rows.filter_map(|row| Some((row.path(), row.option?.name))).collect();
+        // The way to one may begin with the way to another.
+        names.sort_by_key(|(path, _)| std::cmp::Reverse(path.len()));
+        let allowed = names.iter().fold(allowed, |text, (path, name)| text.replace(path, &format!("--{name}")));
         Error::Input { parameter: format!("--{}{key}", named.option.name), value, allowed }
     }
 

@@ -49,7 +49,7 @@ fn dumped(folder: &Path, arguments: &[String]) -> Value {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..Default::default() })]
 
     #[test]
     fn options_and_files_say_the_same(document in any_document().prop_map(consistent)) {

@@ -33,7 +33,7 @@ fn any_value(row: &Parameter) -> BoxedStrategy<Value> {
                 names.into_iter().map(|name| (name.to_owned(), json!(factor))).collect::<Map<_, _>>().into()
             })
             .boxed(),
-        Kind::Files => prop::collection::vec("[a-z ]{1,8}\\.(exr|hdr|png)", 0..3).prop_map(|names| json!(names)).boxed(),
+        Kind::Files => prop::collection::btree_set("[a-z ]{1,8}\\.(exr|hdr|png)", 0..3).prop_map(|names| json!(names)).boxed(),
         Kind::Text => match row.name {
             "time" => select(&TIMES[..]).prop_map(Value::from).boxed(),
             "zone" => select(&ZONES[..]).prop_map(Value::from).boxed(),
