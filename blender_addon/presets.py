@@ -31,27 +31,6 @@ def all_of(folder):
         return []
 
 
-def read(path):
-    """Return the configuration in the file `path`; ValueError or OSError that names it."""
-    try:
-        # With or without the mark that some editors put first.
-        return json.loads(Path(path).read_text(encoding="utf-8-sig"), object_pairs_hook=_without_doubles)
-    except OSError as error:
-        raise OSError(f"file = {path}: must be a file that can be read ({error.strerror})") from None
-    except RecursionError:
-        raise ValueError(f"{path}: must be JSON text (it is nested too deeply)") from None
-    except ValueError as error:
-        raise ValueError(f"{path}: must be JSON text ({error})") from None
-
-
-def _without_doubles(pairs):
-    content = dict(pairs)
-    if len(content) < len(pairs):
-        names = [name for name, _ in pairs]
-        raise ValueError(f"{next(name for name in names if names.count(name) > 1)} is there twice")
-    return content
-
-
 def write(path, content):
     """Write the configuration `content` to `path`, whole or not at all."""
     path = Path(path)
@@ -74,12 +53,12 @@ def apply(scene, path):
 
     ValueError or OSError, before any change, if that cannot be.
     """
-    content = read(path)
+    content = configuration.load(path)
     with live.held(scene):
         try:
             return configuration.to_settings(content, scene.skyprobe)
         except ValueError as error:
-            raise ValueError(f"{Path(path).name}: {error}") from None
+            raise ValueError(f"{error} (in {Path(path).name})") from None
 
 
 class _Applying(Telling):
@@ -164,14 +143,14 @@ class SKYPROBE_OT_delete_preset(Telling, bpy.types.Operator):
 
 
 class SKYPROBE_OT_import_configuration(_Applying, bpy.types.Operator, ImportHelper):
-    """Read the settings from a configuration of the command line tool, or a preset"""
+    """Read the settings from a configuration of the command line tool, a preset, or a picture of skyprobe"""
 
     bl_idname = "skyprobe.import_configuration"
     bl_label = "Import Configuration"
     bl_options = {"REGISTER", "UNDO"}
 
     filename_ext = ".json"
-    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.json;*.exr;*.hdr", options={"HIDDEN"})
 
     @classmethod
     def poll(cls, context):

@@ -11,7 +11,7 @@
 //! Instead of latitude and longitude (and elevation), `"place": "Lund, Sweden"` names the place, or has its coordinates in any spelling
 //! ([`crate::places::locate`]); it is written out as the numbers that it stands for.
 //! Instead of place and time, `"sun": {"altitude_deg": 30, "azimuth_deg": 180}` puts the Sun. Every key may be left out where there
-//! is a default; an unknown key is an error.
+//! is a default; an unknown key is an error, and so is what would be ignored, such as `night.bortle` where `night.when` is never.
 
 pub mod calls;
 mod describe;
@@ -19,10 +19,12 @@ pub mod face;
 mod ignored;
 pub mod json;
 mod parameters;
+mod replace;
 pub mod schema;
 mod source;
 
 pub use describe::describe;
+pub use ignored::Ignored;
 pub use parameters::{AIR, FILE, IMAGE, NIGHT, PLACE_AND_TIME, SECTIONS, Section, parameters};
 
 use crate::atmosphere::AirParameters;
@@ -141,8 +143,8 @@ fn yes() -> bool {
 }
 
 impl Scene {
-    /// Reads and checks a configuration file: JSON, or a picture of skyprobe (EXR, HDR), whose header holds the configuration that it was made from. `-` is
-    /// the standard input.
+    /// Reads and checks a configuration file: JSON, or a picture of skyprobe (EXR, HDR), whose header holds the configuration that it was made from; what had no
+    /// say in the picture is left out then. `-` is the standard input.
     ///
     /// # Errors
     /// [`Error::Input`] if the file cannot be read or holds no configuration, for `config`, or as [`Scene::from_json`], with the name of the file.
@@ -157,14 +159,20 @@ impl Scene {
             }
             other => other,
         };
-        Self::from_json(&source::text_of(path, &name)?).map_err(in_file)
+        let source = source::text_of(path, &name)?;
+        if !source.is_header {
+            return Self::from_json(&source.text).map_err(in_file);
+        }
+        // Headers of former versions tell of settings that were out of force.
+        let scene = json::parse("config", &source.text).and_then(|value| Self::read_value(&value)).map_err(in_file)?;
+        Ok(scene.without_ignored())
     }
 
     /// Reads and checks a configuration. What is missing has its default; place and time may be missing, too.
     ///
     /// # Errors
-    /// [`Error::Input`] for text that is not JSON, an unknown key, a key that stands twice, a value of the wrong type or out of range; it names the key with
-    /// its table, such as `atmosphere.turbidity`.
+    /// [`Error::Input`] for text that is not JSON, an unknown key, a key that stands twice, a value of the wrong type or out of range, or one that would be
+    /// ignored ([`Scene::ignored`]); it names the key with its table, such as `atmosphere.turbidity`.
     pub fn from_json(text: &str) -> Result<Self> {
         Self::from_value(&json::parse("config", text)?)
     }
@@ -174,6 +182,21 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`].
     pub fn from_value(value: &Value) -> Result<Self> {
+        let scene = Self::read_value(value)?;
+        scene.refuse_ignored()?;
+        Ok(scene)
+    }
+
+    /// As [`Scene::from_value`], without what would be ignored: for hosts that keep settings which are out of force.
+    ///
+    /// # Errors
+    /// As [`Scene::from_value`], but for what would be ignored.
+    pub fn from_value_in_force(value: &Value) -> Result<Self> {
+        Ok(Self::read_value(value)?.without_ignored())
+    }
+
+    /// As [`Scene::from_value`], also with what would be ignored.
+    fn read_value(value: &Value) -> Result<Self> {
         let document: Document = json::read("", value)?;
         let mut config = Self {
             latitude: document.latitude,
@@ -289,12 +312,13 @@ impl Scene {
         Value::Object(map)
     }
 
-    /// Checks the range of every value that is given, and that the Sun is not given twice.
+    /// Checks the range of every value that is given, that the Sun is not given twice, and that nothing is asked for that would be ignored ([`Scene::ignored`]).
     ///
     /// # Errors
     /// [`Error::Input`] that names the parameter.
     pub fn validate(&self) -> Result<()> {
-        self.validate_sections([""; 4])
+        self.validate_sections([""; 4])?;
+        self.refuse_ignored()
     }
 
     /// As [`Scene::validate`], with the names of the tables in front of the parameters in errors.
@@ -308,10 +332,10 @@ impl Scene {
                 value.check(row, &json::join(sun_table, row.name))?;
             }
         }
-        if let Some(text) = &self.time {
-            // Without a place its zone is not known yet; UTC serves to check the spelling.
-            let zone = self.zone.as_deref().unwrap_or("UTC");
-            Time::parse(text, ZoneChoice::Named(zone))?;
+        if self.time.is_some() || self.zone.is_some() {
+            // Without a place its zone is not known yet; UTC serves to check the spelling, and any time that of a zone.
+            let (time, zone) = (self.time.as_deref().unwrap_or("now"), self.zone.as_deref().unwrap_or("UTC"));
+            Time::parse(time, ZoneChoice::Named(zone))?;
         }
         self.file.check_ranges().map_err(|error| json::within(file_table, error))?;
         let SceneAtmosphere { air, wavelengths_nm, .. } = &self.atmosphere;

@@ -12,6 +12,7 @@ import sys
 import jsonschema
 import numpy
 import pytest
+import random_scenes
 import skyprobe as sp
 
 
@@ -92,6 +93,68 @@ def test_what_cannot_be_is_named(keys: dict[str, object], message: str) -> None:
     with pytest.raises(sp.InputError) as error:
         sp.Scene(**keys)
     assert str(error.value).startswith(message), str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"night": {"when": "never", "bortle": 4}}, "night.bortle = 4: must be left out where night.when is never"),
+        ({"sun": {"altitude_deg": 3, "azimuth_deg": 3}, "zone": "UTC"}, 'zone = "UTC": must be left out where the Sun is put'),
+        ({"model": "preetham", "layers": {"stars": 2}}, "layers.stars = 2: must be left out for the model preetham"),
+        ({"probe": {"projection": "fisheye", "rows": "corner"}}, 'probe.rows = "corner": must be left out for a fisheye'),
+        ({"file": {"exposure_stops": 1}, "output": "a.exr"}, "file.exposure_stops = 1: must be left out without an output"),
+    ],
+)
+def test_what_would_be_ignored_is_refused_unless_it_is_asked_to_go(keys: dict[str, object], message: str) -> None:
+    with pytest.raises(sp.InputError) as error:
+        sp.Scene(**keys)
+    assert str(error.value).startswith(message), str(error.value)
+    kept = sp.Scene.without_ignored(**keys)
+    assert sp.Scene(**kept.to_dict()) == kept
+
+
+def test_other_values_put_what_was_there_out_of_force(scene: sp.Scene) -> None:
+    night = scene.replace(night={"bortle": 4, "star_limit": 6.0}, layers={"moon": 2.0, "sky": 3.0})
+    never = night.replace(night={"when": "never"})
+    assert never == scene.replace(night={"when": "never"}, layers={"sky": 3.0})
+    with pytest.raises(sp.InputError, match=r"night\.bortle = 5: must be left out where night\.when is never"):
+        night.replace(night={"when": "never", "bortle": 5})
+
+
+@pytest.mark.filterwarnings("ignore::skyprobe.TimeWarning")
+def test_random_scenes_are_the_same_in_every_way(tmp_path: pathlib.Path) -> None:
+    default = random_scenes.by_way(sp.Scene().to_dict())
+    varied: set[str] = set()
+    for number, document in enumerate(random_scenes.scenes(seed=1, count=200)):
+        scene = sp.Scene(**document)
+        values = random_scenes.by_way(scene.to_dict())
+        for way, value in random_scenes.by_way(document).items():
+            assert way == "place" or values.get(way, default.get(way, 0.0 if way == "probe.turn_deg" else 1.0)) == value, (way, document)
+        varied |= {way for way, value in values.items() if value != default.get(way)}
+        scene.save(tmp_path / "a.json")
+        ways = [
+            sp.Scene.load(tmp_path / "a.json"),
+            sp.Scene.from_json(json.dumps(document)),
+            sp.Scene.from_json(scene.to_json()),
+            sp.Scene(**scene.to_dict()),
+            sp.Scene.without_ignored(**document),
+            sp.Scene().replace(**document),
+            pickle.loads(pickle.dumps(scene)),
+        ]
+        assert all(way == scene for way in ways), document
+        # A sky knows its scene; hazes without a solution, and models, are not asked here.
+        if number % 8 == 0 and ("sun" in document or {"latitude", "longitude", "time"} <= values.keys()):
+            known = random_scenes.by_way(scene.sky().scene.to_dict())  # type: ignore[union-attr]
+            kept = ("night.", "atmosphere.")
+            assert {way: value for way, value in known.items() if way.startswith(kept)} == {
+                way: value for way, value in values.items() if way.startswith(kept)
+            }
+        if number % 10 == 0:
+            command = [sys.executable, "-m", "skyprobe", "render", "--config", "a.json", "--dump-config"]
+            dumped = subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True).stdout
+            assert sp.Scene.from_json(dumped) == scene, document
+    missing = {way for way in random_scenes.parameters() if way not in varied and way not in {"place", "layers"}}
+    assert missing == {"sun.altitude_deg", "sun.azimuth_deg"} and "sun" in varied and "layers.moon" in varied
 
 
 def test_what_is_missing_is_named_when_it_is_needed(tmp_path: pathlib.Path) -> None:

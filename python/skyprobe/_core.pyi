@@ -755,7 +755,7 @@ class Scene:
     the headers of pictures hold.
 
     Keys are those of a configuration (``skyprobe schema``); tables such as ``atmosphere`` are dictionaries. What is left out has its default; unknown keys, values
-    out of range and what contradicts itself are an :class:`InputError`.
+    out of range, what contradicts itself and what would be ignored, such as ``bortle`` under a Sun that is put, are an :class:`InputError`.
 
     >>> scene = sp.Scene(place="Lund, Sweden", time="2005-06-21T13:00", atmosphere={"turbidity": 3}, probe={"width": 512})
     >>> probe = scene.render()
@@ -764,6 +764,10 @@ class Scene:
     """
 
     def __new__(cls, **keys: object) -> Scene: ...
+    @classmethod
+    def without_ignored(cls, **keys: object) -> Scene:
+        """The scene of these keys without what would be ignored: for hosts that keep settings which are out of force."""
+
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from."""
@@ -782,7 +786,8 @@ class Scene:
         """The scene as a dictionary, every value written out."""
 
     def replace(self, **keys: object) -> Scene:
-        """The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away.
+        """The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force
+        is left out: the place of a Sun that is put, one of three amounts of haze, the rest of a night that is never shown.
 
         >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
         """
@@ -797,7 +802,7 @@ class Scene:
         """
 
     def sky(self, atmosphere: Atmosphere | None = None) -> Sky:
-        """The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
+        """The sky of the scene.
 
         Parameters
         ----------

@@ -3,7 +3,7 @@
 mod json;
 mod text;
 
-use super::options::{ConfigOptions, tell_assumptions};
+use super::options::{ConfigOptions, tell_time};
 use super::scene_options::{SceneOptions, SkyAlone};
 use super::{answer, files, terminal};
 use crate::ephemeris::{Body, MoonPhase, RiseAndSet, SunEvents, Target, next_moon_phases, rise_and_set, sun_events};
@@ -54,7 +54,7 @@ fn tell(options: &Options) -> Result<()> {
     files::check(options.config.input().as_slice(), &[])?;
     let config = options.scene.over(options.config.read()?)?;
     if options.config.dump_config {
-        tell_assumptions(&config);
+        tell_time(&config);
         return answer(&config.to_json());
     }
     let sky = config.sky(Arc::new(options.config.atmosphere(&config)?))?;

@@ -14,7 +14,7 @@ const CONFIGURATION: &str = "Configuration";
 pub struct ConfigOptions {
     /// JSON file to start from, or an .exr or .hdr of skyprobe, whose header holds what it was made from; - is the standard input. Options override its values.
     ///
-    /// The keys are those that --dump-config prints, and the names of the Python arguments. An unknown key is an error.
+    /// The keys are those that --dump-config prints, and the names of the Python arguments. An unknown key is an error, and so is what would be ignored.
     #[arg(long, value_name = "FILE", help_heading = CONFIGURATION)]
     config: Option<PathBuf>,
     /// Print the whole configuration as JSON, with every default written out, and stop.
@@ -44,12 +44,9 @@ impl ConfigOptions {
     }
 }
 
-/// Says what had to be assumed about the time, and what will have no effect.
-pub fn tell_assumptions(scene: &Scene) {
+/// Says what had to be assumed about the time.
+pub fn tell_time(scene: &Scene) {
     if let Some(notice) = scene.time_notice() {
         complain(&format!("note: time: {notice}"));
-    }
-    for sentence in scene.ignored() {
-        complain(&format!("note: without effect: {sentence}"));
     }
 }

@@ -1,10 +1,10 @@
 //! `skyprobe render`: from a place, a time and an air to files.
 
-use super::options::{ConfigOptions, tell_assumptions};
+use super::options::{ConfigOptions, tell_time};
 use super::scene_options::{Picture, SceneOptions};
 use super::{answer, files, say, terminal};
 use crate::error::{Error, Result};
-use crate::io::{Format, SampleMap, each_once, render_with};
+use crate::io::{SampleMap, each_once, render_with};
 use crate::probe::ProbeSettings;
 use crate::scene::{Scene, describe};
 use crate::sky::{Model, Sky};
@@ -87,7 +87,7 @@ impl Options {
     }
 
     fn config(&self) -> Result<Scene> {
-        let mut config = self.scene.over(self.config.read()?)?;
+        let mut config = self.config.read()?;
         if !self.output.is_empty() {
             config.output.clone_from(&self.output);
         }
@@ -98,6 +98,8 @@ impl Options {
             config.output.push(preview.clone());
         }
         config.output = each_once(&config.output).into_iter().cloned().collect();
+        // Judged with the files that are asked for.
+        let config = self.scene.over(config)?;
         if let Some(path) = &self.sample_map {
             SampleMap::check_name(path)?;
             if config.light.model != Model::Scattering {
@@ -119,7 +121,7 @@ pub fn run(options: &Options) -> Result<()> {
 fn render(options: &Options) -> Result<()> {
     let mut config = options.config()?;
     let inputs = options.config.input();
-    tell_assumptions(&config);
+    tell_time(&config);
     if options.config.dump_config {
         files::check(inputs.as_slice(), &[])?;
     }
@@ -137,8 +139,7 @@ fn render(options: &Options) -> Result<()> {
     let outputs = config.output.iter().map(|path| ("output", path.as_path()));
     let sample_map = options.sample_map.iter().map(|path| ("sample_map", path.as_path()));
     files::check(inputs.as_slice(), &outputs.chain(sample_map).collect::<Vec<_>>())?;
-    let is_exr = |path: &PathBuf| Format::of(path).is_ok_and(|format| format == Format::Exr);
-    if config.file.layers && !config.output.iter().any(is_exr) {
+    if config.file.layers && config.output.is_empty() {
         return Err(Error::input("file.layers", "true", "left out without an output that ends in .exr"));
     }
     if let (Some(label), Some(place)) = (&config.place_label, sky.place()) {

@@ -41,73 +41,66 @@ struct Given {
     value: Value,
 }
 
+impl Given {
+    /// Whether it says what is found at `path`, or a key of the table there.
+    fn says(&self, path: &str) -> bool {
+        let own = self.row.path();
+        match (&self.value, path.strip_prefix(&own).map(|rest| rest.strip_prefix('.').unwrap_or(rest))) {
+            (Value::Object(table), Some(key)) => table.contains_key(key),
+            (_, rest) => rest == Some(""),
+        }
+    }
+}
+
 impl<S: Sections> SceneOptions<S> {
-    /// `scene` with what was given in place of what it says; `now` becomes the instant, and is told.
+    /// `scene` with what was given in place of what it says, and without what that puts out of force; `now` becomes the instant, and is told.
     ///
     /// # Errors
-    /// As [`Scene::from_value`], with the options' names for what was given.
+    /// As [`Scene::from_value`], with the options' names for what was given; options that would be ignored are errors.
     pub fn over(&self, scene: Scene) -> Result<Scene> {
-        let label = scene.place_label.clone();
-        let mut value = scene.to_value();
-        if let Some(map) = value.as_object_mut() {
-            self.lay_over(map)?;
-        }
-        let mut scene = Scene::from_value(&value).map_err(|error| self.as_typed(error))?;
-        if !["place", "latitude", "longitude", "altitude_deg"].iter().any(|name| self.has(name)) {
-            scene.place_label = label;
-        }
+        let mut scene = scene.replace(&self.changes(&scene)?).map_err(|error| self.as_typed(error))?;
         if scene.settle_now()? {
             complain(&format!("note: time: now is {}", scene.time.as_deref().unwrap_or_default()));
         }
         Ok(scene)
     }
 
-    /// The same error with the name of the option where the parameter was given by one.
+    /// The same error with the names of options where the parameter was given by one.
     pub fn as_typed(&self, error: Error) -> Error {
         let Error::Input { parameter, value, allowed } = error else { return error };
-        let named = self.given.iter().find(|given| given.row.name == parameter || given.row.path() == parameter);
-        let parameter = named.map_or(parameter, |given| format!("--{}", given.option.name));
-        Error::Input { parameter, value, allowed }
+        let Some(named) = self.given.iter().find(|given| given.row.name == parameter || given.says(&parameter)) else {
+            return Error::Input { parameter, value, allowed };
+        };
+        let key = parameter.strip_prefix(&format!("{}.", named.row.path())).map_or_else(String::new, |key| format!(" {key}"));
+        let rows = S::SECTIONS.iter().flat_map(Section::parameters).filter(|row| !row.table.is_empty());
+        let mut names: Vec<_> = rows.filter_map(|row| Some((row.path(), row.option?.name))).collect();
+        // The way to one may begin with the way to another.
+        names.sort_by_key(|(path, _)| std::cmp::Reverse(path.len()));
+        let allowed = names.iter().fold(allowed, |text, (path, name)| text.replace(path, &format!("--{name}")));
+        Error::Input { parameter: format!("--{}{key}", named.option.name), value, allowed }
     }
 
     fn has(&self, name: &str) -> bool {
         self.given.iter().any(|given| given.row.name == name)
     }
 
-    fn lay_over(&self, scene: &mut Map<String, Value>) -> Result<()> {
-        if ["place", "latitude", "longitude", "time"].iter().any(|name| self.has(name)) {
-            scene.shift_remove("sun");
-        }
-        if self.has("altitude_deg") {
-            ["latitude", "longitude", "time", "zone"].iter().for_each(|name| drop(scene.shift_remove(*name)));
-        }
-        if self.has("place") {
-            // It has its own.
-            ["latitude", "longitude", "elevation_m"].iter().for_each(|name| drop(scene.shift_remove(*name)));
-        }
+    /// What was given, as JSON has it.
+    fn changes(&self, scene: &Scene) -> Result<Map<String, Value>> {
         if (self.has("angle_deg") || self.has("held_towards_deg"))
             && !self.has("strength")
-            && !scene.contains_key("polarising_filter")
+            && scene.light.polarising_filter.is_none()
         {
             return Err(Error::input("polarising_filter", "nothing", "given, to turn it or to hold it towards a direction"));
         }
+        let mut changes = Map::new();
         for Given { row, value, .. } in &self.given {
-            for other in
-                S::SECTIONS.iter().flat_map(Section::parameters).filter(|other| other.group == row.group && !row.group.is_empty())
-            {
-                table_of(scene, other).shift_remove(other.name);
-            }
-            let table = table_of(scene, row);
-            match (table.get_mut(row.name), value) {
-                (Some(Value::Object(before)), Value::Object(more)) => before.extend(more.clone()),
-                _ => drop(table.insert(row.name.to_owned(), value.clone())),
-            }
+            table_of(&mut changes, row).insert(row.name.to_owned(), value.clone());
         }
-        Ok(())
+        Ok(changes)
     }
 }
 
-/// The table of a scene that holds a parameter.
+/// The table that holds a parameter.
 fn table_of<'a>(scene: &'a mut Map<String, Value>, row: &Parameter) -> &'a mut Map<String, Value> {
     if row.table.is_empty() {
         return scene;

@@ -10,7 +10,6 @@ use crate::io::{check_output, write_atomically};
 use crate::probe;
 use crate::progress::Progress;
 use crate::scene;
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use serde_json::{Map, Value};
@@ -21,7 +20,7 @@ use std::path::PathBuf;
 /// the headers of pictures hold.
 ///
 /// Keys are those of a configuration (``skyprobe schema``); tables such as ``atmosphere`` are dictionaries. What is left out has its default; unknown keys, values
-/// out of range and what contradicts itself are an :class:`InputError`.
+/// out of range, what contradicts itself and what would be ignored, such as ``bortle`` under a Sun that is put, are an :class:`InputError`.
 ///
 /// >>> scene = sp.Scene(place="Lund, Sweden", time="2005-06-21T13:00", atmosphere={"turbidity": 3}, probe={"width": 512})
 /// >>> probe = scene.render()
@@ -52,6 +51,15 @@ impl Scene {
     fn new(keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         fork::check()?;
         Self::of_map(keys.map_or(Ok(Map::new()), values::table)?)
+    }
+
+    /// The scene of these keys without what would be ignored: for hosts that keep settings which are out of force.
+    #[classmethod]
+    #[pyo3(signature = (**keys))]
+    fn without_ignored(_class: &Bound<'_, PyType>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        fork::check()?;
+        let map = keys.map_or(Ok(Map::new()), values::table)?;
+        Ok(Self { inner: scene::Scene::from_value_in_force(&Value::Object(map))? })
     }
 
     /// The scene of a file: JSON, or a picture of skyprobe (.exr, .hdr), whose header holds what it was made from.
@@ -86,28 +94,15 @@ impl Scene {
         values::object(py, &self.inner.to_value())
     }
 
-    /// The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away.
+    /// The same scene with other values. A table that is given as a dictionary changes the keys that it has; None takes a value away. What the others put out of force
+    /// is left out: the place of a Sun that is put, one of three amounts of haze, the rest of a night that is never shown.
     ///
     /// >>> evening = scene.replace(time="2005-06-21T21:30", probe={"width": 1024})
     #[pyo3(signature = (**keys))]
     fn replace(&self, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         fork::check()?;
-        let Value::Object(mut map) = self.inner.to_value() else { return Err(InputError::new_err("scene: no table")) };
-        for (key, value) in keys.map_or(Ok(Map::new()), values::table)? {
-            match (map.get_mut(&key), value) {
-                (_, Value::Null) => drop(map.shift_remove(&key)),
-                (Some(Value::Object(table)), Value::Object(changes)) => {
-                    for (inner, value) in changes {
-                        match value {
-                            Value::Null => drop(table.shift_remove(&inner)),
-                            value => drop(table.insert(inner, value)),
-                        }
-                    }
-                }
-                (_, value) => drop(map.insert(key, value)),
-            }
-        }
-        Self::of_map(map)
+        let changes = keys.map_or(Ok(Map::new()), values::table)?;
+        Ok(Self { inner: self.inner.replace(&changes)? })
     }
 
     /// The air of the scene, not solved yet. One air serves all scenes that differ in place, time, night and picture only.
@@ -122,7 +117,7 @@ impl Scene {
         Ok(Atmosphere::with(self.inner.atmosphere()?, cache))
     }
 
-    /// The sky of the scene. What the scene says and has no effect, such as the night under a Sun that is put, is a ``UserWarning``.
+    /// The sky of the scene.
     ///
     /// Parameters
     /// ----------
@@ -135,10 +130,6 @@ impl Scene {
             Some(air) => air,
             None => Bound::new(py, self.atmosphere(true)?)?,
         };
-        for sentence in self.inner.ignored() {
-            let message = std::ffi::CString::new(format!("without effect: {sentence}"))?;
-            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)?;
-        }
         let inner = self.inner.sky(air.get().inner.clone())?;
         Sky::of(py, inner, air.unbind(), self.inner.sun_model, self.inner.light.model)
     }

@@ -24,11 +24,11 @@ pub fn describe(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: 
 }
 
 impl Scene {
-    /// The scene that makes a probe of `sky` again; `None` if its air was given as a profile.
+    /// The scene that makes a probe of `sky` again, without what has no say in it ([`Scene::ignored`]); `None` if its air was given as a profile.
     pub fn of(sky: &Sky, sun_model: SunModel, light: &LightOptions, settings: &ProbeSettings) -> Option<Scene> {
         let (place, time, atmosphere, sun) = (sky.place(), sky.time(), sky.atmosphere(), sky.sun());
         let put = SunPosition { altitude_deg: sun.altitude_deg, azimuth_deg: sun.azimuth_deg };
-        Some(Scene {
+        let scene = Scene {
             latitude: place.map(|place| place.latitude_deg),
             longitude: place.map(|place| place.longitude_deg),
             elevation_m: sky.elevation_m(),
@@ -48,7 +48,8 @@ impl Scene {
             probe: settings.clone(),
             file: FileOptions::default(),
             output: Vec::new(),
-        })
+        };
+        Some(scene.without_ignored())
     }
 }
 

@@ -20,11 +20,20 @@ const EXR: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
 const HDR: &[u8] = b"#?";
 const PNG: &[u8] = &[0x89, b'P', b'N', b'G'];
 
+/// The text of a configuration.
+#[derive(Debug, PartialEq)]
+pub struct Source {
+    /// The text.
+    pub text: String,
+    /// Whether a picture's header holds it: then it was written with the picture, and not by hand.
+    pub is_header: bool,
+}
+
 /// The text of the configuration in `path`, which is called `name` in messages.
 ///
 /// # Errors
 /// [`Error::Input`] for `config`.
-pub fn text_of(path: &Path, name: &str) -> Result<String> {
+pub fn text_of(path: &Path, name: &str) -> Result<Source> {
     if path.as_os_str() == STANDARD {
         return read(BufReader::new(std::io::stdin().lock()), name);
     }
@@ -32,7 +41,7 @@ pub fn text_of(path: &Path, name: &str) -> Result<String> {
     read(BufReader::new(file), name)
 }
 
-fn read(mut source: impl BufRead, name: &str) -> Result<String> {
+fn read(mut source: impl BufRead, name: &str) -> Result<Source> {
     let wrong = |allowed: &str| Error::input("config", name, allowed);
     // A pipe may hand over less than is asked for.
     let mut bytes = Vec::new();
@@ -50,11 +59,12 @@ fn read(mut source: impl BufRead, name: &str) -> Result<String> {
         if bytes.len() as u64 > LONGEST {
             return Err(wrong("JSON text of at most 16 MB"));
         }
-        return decoded(bytes).ok_or_else(|| wrong("JSON text in UTF-8, or in UTF-16 with a byte-order mark"));
+        let text = decoded(bytes).ok_or_else(|| wrong("JSON text in UTF-8, or in UTF-16 with a byte-order mark"))?;
+        return Ok(Source { text, is_header: false });
     };
     let mut fields = fields.map_err(|reason| wrong(&format!("a picture whose header can be read ({reason})")))?;
     let none = "JSON text, or a picture whose header holds the configuration that skyprobe made it from; this one has none";
-    fields.remove(FIELD).ok_or_else(|| wrong(none))
+    fields.remove(FIELD).map(|text| Source { text, is_header: true }).ok_or_else(|| wrong(none))
 }
 
 fn unreadable(name: &str, error: &std::io::Error) -> Error {
@@ -94,7 +104,7 @@ mod tests {
             wide(0xfeff, u16::to_be_bytes),
         ];
         for bytes in cases {
-            assert_eq!(read(&bytes[..], "a.json").unwrap(), text);
+            assert_eq!(read(&bytes[..], "a.json").unwrap(), Source { text: text.to_owned(), is_header: false });
         }
         for bytes in
             [&b"{\xff}"[..], b"\xff\xfe{", b"\x89PNG\r\n\x1a\n", b"#?RADIANCE\n", EXR, b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n"]
@@ -102,7 +112,7 @@ mod tests {
             let message = read(bytes, "a.json").unwrap_err().to_string();
             assert!(message.starts_with("config = a.json: must be "), "{message}");
         }
-        assert_eq!(read(&b"{}"[..], "a").unwrap() + &read(&b""[..], "a").unwrap(), "{}");
+        assert_eq!(read(&b"{}"[..], "a").unwrap().text + &read(&b""[..], "a").unwrap().text, "{}");
         assert!(read(std::io::BufReader::new(std::io::repeat(b' ')), "a").unwrap_err().to_string().contains("16 MB"));
     }
 
@@ -116,7 +126,7 @@ mod tests {
         for name in ["a.exr", "a.hdr"] {
             let path = folder.path().join(name);
             save(&path, &probe, &FileOptions::default(), &metadata).unwrap();
-            assert_eq!(text_of(&path, name).unwrap(), config, "{name}");
+            assert_eq!(text_of(&path, name).unwrap(), Source { text: config.clone(), is_header: true }, "{name}");
             save(&path, &probe, &FileOptions::default(), &Metadata::default()).unwrap();
             assert!(text_of(&path, name).unwrap_err().to_string().contains("this one has none"));
         }

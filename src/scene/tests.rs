@@ -1,7 +1,9 @@
 use super::*;
 use proptest::prelude::*;
-use proptest::sample::select;
 use serde_json::json as object;
+
+mod documents;
+mod random;
 
 fn message(text: &str) -> String {
     Scene::from_json(text).unwrap_err().to_string()
@@ -18,6 +20,7 @@ fn wrong_input_names_the_key_with_its_table() {
         (r#"{"latitude": "north"}"#, r#"latitude = "north": must be a number"#),
         (r#"{"time": "yesterday"}"#, r#"time = "yesterday": must be "#),
         (r#"{"zone": "Mars/Olympus", "time": "2005-06-21T13:00"}"#, r#"zone = "Mars/Olympus": must be "#),
+        (r#"{"zone": "Mars/Olympus"}"#, r#"zone = "Mars/Olympus": must be "#),
         (r#"{"lattitude": 5}"#, "unknown key lattitude = 5: must be left out, or one of latitude, longitude"),
         (r#"{"atmosphere": {"turbidity": -1}}"#, "atmosphere.turbidity = -1: must be a number from 1 to 64"),
         (r#"{"atmosphere": {"turbidty": 2}}"#, "unknown key atmosphere.turbidty = 2: must be left out, or one of preset"),
@@ -47,6 +50,75 @@ fn wrong_input_names_the_key_with_its_table() {
         let message = message(text);
         assert!(message.starts_with(start), "{text}: {message}");
         assert!(!message.contains('\n'), "{message}");
+    }
+}
+
+#[test]
+fn what_would_be_ignored_is_refused_by_name_with_the_reason() {
+    let sun = r#""sun": {"altitude_deg": 5, "azimuth_deg": 0}"#;
+    for (keys, start) in [
+        (r#""night": {"when": "never", "bortle": 4}"#, "night.bortle = 4: must be left out where night.when is never"),
+        (
+            r#""night": {"when": "always"}, "model": "preetham""#,
+            r#"night.when = "always": must be left out for the model preetham"#,
+        ),
+        (r#""night": {"led_share": 1}"#, "night.led_share = 1: must be left out where neither night.bortle"),
+        (r#""night": {"star_limit": 6}, SUN"#, "night.star_limit = 6: must be left out where the Sun is put, which has no night"),
+        (r#""zone": "UTC", SUN"#, r#"zone = "UTC": must be left out where the Sun is put"#),
+        (r#""sun_model": "thesis", SUN"#, r#"sun_model = "thesis": must be left out where the Sun is put"#),
+        (r#""layers": {"sky": 2, "moon": 2}, SUN"#, "layers.moon = 2: must be left out where the Sun is put"),
+        (r#""layers": {"light_pollution": 2}"#, "layers.light_pollution = 2: must be left out where neither"),
+        (
+            r#""atmosphere": {"asymmetry": 0.5, "preset": "pure"}"#,
+            "atmosphere.asymmetry = 0.5: must be left out where the aerosol is none",
+        ),
+        (
+            r#""atmosphere": {"relative_humidity": 5, "preset": "thesis"}"#,
+            "atmosphere.relative_humidity = 5: must be left out for the aerosol thesis",
+        ),
+        (
+            r#""atmosphere": {"stratospheric_altitude_km": 25}"#,
+            "atmosphere.stratospheric_altitude_km = 25: must be left out where",
+        ),
+        (
+            r#""atmosphere": {"ozone_du": 250}, "model": "preetham""#,
+            "atmosphere.ozone_du = 250: must be left out for the model preetham",
+        ),
+        (
+            r#""atmosphere": {"quality": "high"}, "model": "thesis""#,
+            r#"atmosphere.quality = "high": must be left out for the model thesis"#,
+        ),
+        (r#""probe": {"projection": "fisheye", "rows": "corner"}"#, r#"probe.rows = "corner": must be left out for a fisheye"#),
+        (
+            r#""probe": {"extent": "upper", "ground": "mirrored"}"#,
+            r#"probe.ground = "mirrored": must be left out where probe.extent is upper"#,
+        ),
+        (r#""probe": {"color_space": "xyz", "gamut": "clip"}"#, r#"probe.gamut = "clip": must be left out for xyz"#),
+        (
+            r#""file": {"layers": true}, "output": "a.hdr""#,
+            "file.layers = true: must be left out without an output that ends in .exr",
+        ),
+        (
+            r#""file": {"exposure_stops": 1}, "output": ["a.exr"]"#,
+            "file.exposure_stops = 1: must be left out without an output that ends in .png",
+        ),
+    ] {
+        let message = message(&format!("{{{}}}", keys.replace("SUN", sun)));
+        assert!(message.starts_with(start), "{keys}: {message}");
+    }
+    // What is asked for comes anyway, or there is no picture yet that it could be missing in.
+    for keys in [
+        r#""night": {"when": "never", "star_limit": 8.5, "led_share": 0.5}, "layers": {"moon": 0, "stars": 1}"#,
+        r#""night": {"when": "never"}, "layers": {"moon": 0}, SUN"#,
+        r#""night": {"led_share": 1, "bortle": 3}, "layers": {"light_pollution": 2}"#,
+        r#""atmosphere": {"stratospheric_altitude_km": 25, "preset": "volcanic"}"#,
+        r#""atmosphere": {"stratospheric_altitude_km": 25, "stratospheric_aod550": 0}"#,
+        r#""probe": {"color_space": "xyz", "gamut": "keep"}"#,
+        r#""probe": {"extent": "upper", "ground": "off"}"#,
+        r#""file": {"layers": true, "exposure_stops": 1}"#,
+        r#""zone": "UTC""#,
+    ] {
+        Scene::from_json(&format!("{{{}}}", keys.replace("SUN", sun))).unwrap();
     }
 }
 
@@ -94,99 +166,7 @@ fn not_a_number_is_refused_where_it_cannot_come_from_json() {
     }
 }
 
-/// A value that the row of a parameter allows.
-fn any_value(row: &'static Parameter) -> BoxedStrategy<Value> {
-    let number = |low: f64, high: f64| prop_oneof![Just(low), Just(high), low..=high].prop_map(Value::from);
-    let word = |words: &'static [&'static str]| select(words.to_vec()).prop_map(Value::from);
-    match row.kind {
-        Kind::Number { low, high } => number(low, high).boxed(),
-        // Pictures divide into whole rows.
-        Kind::Whole { low, high } if row.name == "width" => {
-            (low / 4..=high / 4).prop_map(|quarter| Value::from(4 * quarter)).boxed()
-        }
-        Kind::Whole { low, high } => (low..=high).prop_map(Value::from).boxed(),
-        Kind::Flag => any::<bool>().prop_map(Value::from).boxed(),
-        Kind::Words(words) => word(words).boxed(),
-        Kind::WordsOrNumber { words, low, high } => prop_oneof![word(words), number(low, high)].boxed(),
-        Kind::Ascending { low, high } => proptest::collection::btree_set(low as u32..=high as u32, 1..6)
-            .prop_map(|set| Value::from_iter(set.into_iter().map(f64::from)))
-            .boxed(),
-        Kind::Direction => {
-            (-90.0..=90.0_f64, -360.0..=360.0_f64).prop_map(|(altitude, azimuth)| Value::from(vec![altitude, azimuth])).boxed()
-        }
-        Kind::Factors { words, low, high } => proptest::collection::btree_map(select(words.to_vec()), low..=high, 1..4)
-            .prop_map(|factors| {
-                Value::from_iter(factors.into_iter().map(|(word, factor)| (word.to_owned(), Value::from(factor))))
-            })
-            .boxed(),
-        Kind::Files => proptest::collection::vec("[a-z \u{e5}]{1,8}\\.exr", 1..3).prop_map(Value::from).boxed(),
-        Kind::Text => match row.name {
-            "time" => select(vec!["2005-06-21T13:00:00+02:00", "1987-01-02T03:04", "2030-12-31"]).prop_map(Value::from).boxed(),
-            "zone" => select(vec!["Europe/Stockholm", "UTC", "Asia/Kathmandu"]).prop_map(Value::from).boxed(),
-            "place" => select(vec!["Lund, Sweden", "-33.87, 151.21"]).prop_map(Value::from).boxed(),
-            other => panic!("what may the text {other} be?"),
-        },
-    }
-}
-
-/// JSON in which each parameter of the table is given as often as not; what excludes each other is not given twice.
-fn any_document() -> impl Strategy<Value = Value> {
-    let rows: Vec<BoxedStrategy<Option<Value>>> = parameters().map(|row| proptest::option::of(any_value(row)).boxed()).collect();
-    (rows, any::<[bool; 2]>()).prop_map(|(values, [is_put, is_named])| {
-        let mut document = serde_json::Map::new();
-        let mut groups = Vec::new();
-        for (row, value) in parameters().zip(values) {
-            let of_place = ["latitude", "longitude", "time", "zone", "place"].contains(&row.name);
-            let is_left_out = (is_put && of_place)
-                || (!is_put && row.table == "sun")
-                || (is_named == ["latitude", "longitude"].contains(&row.name)
-                    && (of_place && row.name != "time" && row.name != "zone"));
-            let needed = is_put && row.table == "sun";
-            let Some(value) = value.or(needed.then_some(Value::from(1.5))) else { continue };
-            if is_left_out || (!row.group.is_empty() && groups.contains(&row.group)) {
-                continue;
-            }
-            if !row.group.is_empty() {
-                groups.push(row.group);
-            }
-            let table = match row.table {
-                "" => &mut document,
-                name => document.entry(name).or_insert_with(|| Value::Object(serde_json::Map::new())).as_object_mut().unwrap(),
-            };
-            table.insert(row.name.to_owned(), value);
-        }
-        Value::Object(document)
-    })
-}
-
-/// Whether two parameters do not fit together, which their rows cannot say.
-fn is_of_several(error: &Error) -> bool {
-    let text = error.to_string();
-    ["left out", "henyey_greenstein or cornette_shanks", "km or more in haze", "of pure air", "one of continental_clean"]
-        .iter()
-        .any(|part| text.contains(part))
-}
-
 proptest! {
-    #[test]
-    fn what_the_table_allows_is_read_and_comes_back_to_the_last_digit(document in any_document()) {
-        match Scene::from_value(&document) {
-            Ok(scene) => {
-                let again = Scene::from_json(&scene.to_json()).unwrap();
-                prop_assert_eq!(again.to_value(), scene.to_value());
-                // What was given stands in what is written, but for a place, which is written as the numbers that it stands for.
-                let written = scene.to_value();
-                for row in parameters().filter(|row| !["place", "elevation_m"].contains(&row.name)) {
-                    let at = format!("/{}", row.path().replace('.', "/"));
-                    if let Some(given) = document.pointer(&at).filter(|given| *given != &Value::from(0.0)) {
-                        prop_assert_eq!(written.pointer(&at), Some(given), "{}", row.path());
-                    }
-                }
-            }
-            Err(error) => prop_assert!(is_of_several(&error), "{}: {}", document, error),
-        }
-    }
-
     #[test]
     fn a_value_out_of_range_is_refused_by_name(index in 0..200_usize, above in any::<bool>(), by in 1e-3..1e6_f64) {
         let rows: Vec<&Parameter> = parameters().filter(|row| matches!(row.kind, Kind::Number { .. } | Kind::Whole { .. })).collect();

@@ -85,7 +85,7 @@ def compare(folder, binary):
         if run.returncode != 0:
             answer[name] = run.stderr
             continue
-        ours, theirs = (_pixels(f"{stem}_{who}.exr") for who in ("addon", "tool"))
+        ours, theirs = (pixels_at(f"{stem}_{who}.exr") for who in ("addon", "tool"))
         bpy.ops.skyprobe.reset()
         bpy.ops.skyprobe.import_configuration(filepath=f"{stem}.json")
         again = values.final_request(scene)
@@ -104,7 +104,8 @@ def _instant(request):
     return places.civil_time(request.time, request.place["latitude"], request.place["longitude"]).time
 
 
-def _pixels(path):
+def pixels_at(path):
+    """Return the numbers of the picture at `path` as Blender reads them."""
     image = bpy.data.images.load(path)
     image.colorspace_settings.name = "Linear Rec.709"
     pixels = pixels_of(image).copy()

@@ -143,7 +143,7 @@ def told():
         "tolerance": 0.01,
         "probe": {"width": 512, "rows": "corner", "turn_deg": 90.0, "scale": "mitsuba", "color_space": "acescg", "gamut": "keep"},
         "file": {"half": "scale", "exposure_stops": 1.0, "operator": "aces", "layers": True},
-        "output": ["sky.exr"],
+        "output": ["sky.exr", "sky.png"],
     }
     notes = part("configuration").to_settings(content, scene.skyprobe)
     return {"notes": notes, "width": scene.skyprobe.width, "latitude": float(np.degrees(scene.skyprobe.latitude)), "hour": scene.skyprobe.hour}
@@ -186,6 +186,11 @@ def refused(folder):
         "a mirrored ground": '{"probe": {"ground": "mirrored"}}',
         "light without polarisation": '{"atmosphere": {"polarisation": false}}',
         "chosen wavelengths": '{"atmosphere": {"wavelengths_nm": [500, 600]}}',
+        "a ground by its albedo": '{"atmosphere": {"ground": 0.3}}',
+        "a layer as bright as no property": '{"layers": {"stars": 1e8}}',
+        "towns by their brightness": '{"night": {"zenith_brightness": 20}}',
+        "a scattering function": '{"atmosphere": {"asymmetry": 0.5}}',
+        "a night that is never shown": '{"night": {"when": "never", "bortle": 4}}',
         "a place twice": '{"place": "Lund, Sweden", "latitude": 10}',
         "two amounts of haze": '{"atmosphere": {"aod550": 0.1, "turbidity": 3}}',
         "a key that is there twice": '{"atmosphere": {"preset": "fog", "preset": "clear"}}',

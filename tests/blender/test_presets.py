@@ -55,7 +55,7 @@ def test_what_blender_does_without_is_told(host):
     notes = "\n".join(answer["notes"])
     for fragment in (
         "Lund", "2005-03-27T02:30:00 does not exist", "tolerance = 0.01", "probe.rows = 'corner'", "probe.turn_deg = 90.0", "probe.scale = 'mitsuba'", "probe.color_space = 'acescg'",
-        "probe.gamut = 'keep'", "file.half = 'scale'", "file.exposure_stops = 1.0", "file.operator = 'aces'", "file.layers = True", "output = ['sky.exr']",
+        "probe.gamut = 'keep'", "file.half = 'scale'", "file.exposure_stops = 1.0", "file.operator = 'aces'", "file.layers = True", "output = ['sky.exr', 'sky.png']",
     ):
         assert fragment in notes, fragment
     assert answer["width"] == 512 and answer["latitude"] == pytest.approx(55.706, abs=1e-3) and answer["hour"] == pytest.approx(3.5)
@@ -103,7 +103,7 @@ def test_each_preset_that_is_shipped_shows_what_it_promises(host, tmp_path):
 
 def test_a_preset_of_ones_own_holds_what_was_chosen(host):
     answer = host.run("preset_steps.own")
-    assert answer["content"] == {"atmosphere": {"preset": "desert", "quality": "draft"}}
+    assert answer["content"] == {"atmosphere": {"preset": "desert", "quality": "draft", "polarisation": True}}
     assert answer["applied"] == ["desert", 7]
     assert answer["left"] == []
     assert "must be a file's name" in answer["bad_name"]
@@ -113,8 +113,8 @@ def test_a_file_that_makes_no_sense_changes_nothing(host, tmp_path):
     answer = host.run("preset_steps.refused", folder=str(tmp_path))
     told = {
         "not JSON": "must be JSON",
-        "a list": "must be a JSON object",
-        "an unknown key": "month = 3",
+        "a list": "must be a table of keys and values",
+        "an unknown key": "unknown key month = 3",
         "an unknown preset": "stormy",
         "a text for a number": "must be a number",
         "a latitude too far": "latitude",
@@ -127,10 +127,15 @@ def test_a_file_that_makes_no_sense_changes_nothing(host, tmp_path):
         "the upper half": "probe.extent = 'upper'",
         "a mirrored ground": "probe.ground = 'mirrored'",
         "light without polarisation": "atmosphere.polarisation = False",
-        "chosen wavelengths": "atmosphere.wavelengths_nm = [500, 600]",
-        "a place twice": "place = 'Lund, Sweden'",
+        "chosen wavelengths": "atmosphere.wavelengths_nm = [500.0, 600.0]",
+        "a ground by its albedo": "atmosphere.ground = 0.3: must be one of preset, grass",
+        "a layer as bright as no property": "layers.stars = 100000000.0: must be from 0 to 1e+06 in Blender",
+        "towns by their brightness": "night.zenith_brightness = 20.0: must be left out; Blender's sky has no other",
+        "a scattering function": "atmosphere.asymmetry = 0.5: must be left out",
+        "a night that is never shown": "night.bortle = 4: must be left out where night.when is never",
+        "a place twice": 'place = "Lund, Sweden"',
         "two amounts of haze": "atmosphere.turbidity = 3",
-        "a key that is there twice": "preset is there twice",
+        "a key that is there twice": 'atmosphere.preset = "fog" and "clear": must be given once',
         "no such zone": "Nowhere/Atlantis",
         "not UTF-8": "must be JSON",
     }

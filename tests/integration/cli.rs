@@ -27,6 +27,7 @@ fn wrong_input_is_one_line_and_exit_code_2_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("folder.exr")).unwrap();
     std::fs::write(folder.path().join("unknown.json"), r#"{"atmosphere": {"turbidty": 3}}"#).unwrap();
+    std::fs::write(folder.path().join("town.json"), r#"{"night": {"when": "never", "bortle": 3}}"#).unwrap();
     std::fs::write(folder.path().join("broken.json"), "{\n \"latitude\": }").unwrap();
     let before = files(folder.path());
     let place = ["--lat", "55.71", "--lon", "-76.5", "--time", "2005-06-21T13:00Z"];
@@ -72,6 +73,30 @@ fn wrong_input_is_one_line_and_exit_code_2_and_leaves_nothing() {
         (with(&SUN, &["--layer", "stars", "-o", "a.exr"]), "--layer = \"stars\": must be NAME=FACTOR, such as stars=2"),
         (with(&SUN, &["--layer", "stars=-1", "-o", "a.exr"]), "--layer stars = -1: must be a number from 0 to"),
         (with(&SUN, &["--separate-layers", "-o", "a.hdr"]), "--separate-layers = true: must be left out without an output"),
+        (
+            with(&SUN, &["--separate-layers", "--sample-map", "a.png"]),
+            "--separate-layers = true: must be left out without an output that ends in .exr",
+        ),
+        (with(&SUN, &["--exposure", "1", "-o", "a.exr"]), "--exposure = 1: must be left out without an output that ends in .png"),
+        (with(&SUN, &["--bortle", "3", "-o", "a.exr"]), "--bortle = 3: must be left out where the Sun is put"),
+        (with(&SUN, &["--layer", "moon=2", "-o", "a.exr"]), "--layer moon = 2: must be left out where the Sun is put"),
+        (with(&SUN, &["--config", "town.json", "-o", "a.exr"]), "night.bortle = 3: must be left out where night.when is never"),
+        (
+            with(&place, &["--night", "never", "--star-limit", "6", "-o", "a.exr"]),
+            "--star-limit = 6: must be left out where --night is never",
+        ),
+        (
+            with(&place, &["--led-share", "1", "-o", "a.exr"]),
+            "--led-share = 1: must be left out where neither --bortle nor --zenith-brightness says",
+        ),
+        (
+            with(&place, &["--model", "preetham", "--ozone", "200", "-o", "a.exr"]),
+            "--ozone = 200: must be left out for the model preetham",
+        ),
+        (
+            with(&place, &["--aerosol", "none", "--asymmetry", "0.5", "-o", "a.exr"]),
+            "--asymmetry = 0.5: must be left out where the aerosol is none",
+        ),
         (with(&SUN, &["--tolerance", "0", "-o", "a.exr"]), "tolerance = 0: must be a number from 0.0001 to 0.5"),
         (with(&SUN, &["--sample-map", "a.exr"]), "sample_map = a.exr: must be a file name that ends in .png"),
         (with(&SUN, &["--sample-map", "nowhere/a.png"]), "nowhere/a.png: must be"),
@@ -139,6 +164,41 @@ fn a_dumped_configuration_makes_the_same_picture_and_options_override_it() {
     for gone in [&config["atmosphere"]["visibility_km"], &config["latitude"], &config["time"]] {
         assert!(gone.is_null(), "{gone}");
     }
+}
+
+/// What is asked for by options counts; what it puts out of force is no longer part of the configuration.
+#[test]
+fn options_put_values_of_a_configuration_out_of_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let night = r#"{"place": "Lund", "time": "2005-01-10T23:00", "zone": "UTC", "night": {"bortle": 3, "star_limit": 6},
+        "layers": {"stars": 2, "sky": 3}, "atmosphere": {"ozone_du": 200}, "file": {"half": "refuse"}, "output": "a.exr"}"#;
+    std::fs::write(folder.path().join("night.json"), night).unwrap();
+    let dumped = |options: &[&str]| {
+        let output = tool(folder.path(), &[&["render", "--config", "night.json", "--dump-config"], options].concat());
+        assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()), "{options:?}");
+        // As any other, it can be read again.
+        std::fs::write(folder.path().join("again.json"), &output.stdout).unwrap();
+        let again = tool(folder.path(), &["render", "--config", "again.json", "--dump-config"]);
+        assert_eq!(text(&again.stdout), text(&output.stdout), "{options:?}");
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    let whole = dumped(&[]);
+    assert_eq!(
+        (&whole["night"]["bortle"], &whole["layers"]["stars"], &whole["file"]["half"]),
+        (&3.into(), &2.0.into(), &"refuse".into())
+    );
+    let never = dumped(&["--night", "never"]);
+    assert_eq!(
+        never["night"],
+        serde_json::json!({"when": "never", "star_limit": 8.5, "solar_flux_sfu": 130.0, "led_share": 0.5})
+    );
+    assert_eq!(never["layers"], serde_json::json!({"sky": 3.0}));
+    let put = dumped(&["--sun-altitude", "3", "--sun-azimuth", "3", "--model", "preetham"]);
+    assert_eq!((put.get("zone"), put["night"].get("bortle"), put["atmosphere"].get("ozone_du")), (None, None, None));
+    assert_eq!(dumped(&["-o", "a.png", "--exposure", "1"])["file"]["half"], "off");
+    // Without a say from the start is another matter.
+    let output = tool(folder.path(), &["render", "--config", "night.json", "--night", "never", "--bortle", "4", "--dump-config"]);
+    assert!(text(&output.stderr).starts_with("error: --bortle = 4: must be left out where --night is never"));
 }
 
 #[test]

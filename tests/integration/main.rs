@@ -7,6 +7,7 @@ mod common;
 
 mod cli;
 mod cli_files;
+mod cli_scenes;
 mod colour;
 mod energy;
 mod examples;
