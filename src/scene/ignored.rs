@@ -115,8 +115,8 @@ impl Scene {
 
     fn add_air(&self, list: &mut List) {
         let air = &self.atmosphere.air;
-        let defaults = air.preset.defaults();
-        let aerosol = air.aerosol.unwrap_or(defaults.aerosol);
+        let preset = air.preset.parameters();
+        let aerosol = air.aerosol.or(preset.aerosol).unwrap_or(AerosolType::None);
         let own = ["relative_humidity", "phase_function", "angstrom_exponent", "single_scattering_albedo", "asymmetry"];
         if aerosol == AerosolType::None {
             list.add(own.into_iter().chain(["aerosol_scale_height_km"]).map(of_air), "where the aerosol is none");
@@ -124,7 +124,7 @@ impl Scene {
             let why = format!("for the aerosol {aerosol}, whose particles are not known");
             list.add(["relative_humidity"].map(of_air), &why);
         }
-        if air.stratospheric_aod550.is_none() && defaults.stratospheric_aod550 == 0.0 {
+        if air.stratospheric_aod550.or(preset.stratospheric_aod550).is_none() {
             let why = "where atmosphere.stratospheric_aod550 says nothing of such haze, nor the preset";
             list.add(["stratospheric_altitude_km"].map(of_air), why);
         }
