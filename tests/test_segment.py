@@ -9,7 +9,7 @@ WAVELENGTHS_NM = np.array([450.0, 550.0, 650.0])
 
 @pytest.fixture(scope="module")
 def sky():
-    return sp.Sky.with_sun(35.0, 120.0, atmosphere=sp.Atmosphere(visibility_km=20.0, quality="draft"))
+    return sp.Sky.with_sun(altitude_deg=35.0, azimuth_deg=120.0, atmosphere=sp.Atmosphere(visibility_km=20.0, quality="draft"))
 
 
 def directions(*angles_deg):
@@ -49,7 +49,7 @@ def test_a_dark_hill_at_the_visibility_keeps_two_hundredths_of_its_contrast(sky)
 def test_transmittances_of_two_parts_multiply():
     air = sp.Atmosphere(quality="draft")
     up = [[0.0, 0.0, 1.0]]
-    low, high = (sp.Sky.with_sun(50.0, 0.0, elevation_m=height, atmosphere=air) for height in (0.0, 3000.0))
+    low, high = (sp.Sky.with_sun(altitude_deg=50.0, azimuth_deg=0.0, elevation_m=height, atmosphere=air) for height in (0.0, 3000.0))
     first, _ = low.segment(up, [3000.0, 9000.0], WAVELENGTHS_NM)
     second, _ = high.segment(up, [6000.0], WAVELENGTHS_NM)
     assert np.allclose(first[0, 0] * second[0, 0], first[0, 1], rtol=1e-6)
