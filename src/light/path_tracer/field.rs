@@ -241,3 +241,6 @@ impl<F: Field + ?Sized> Medium for AirWithField<'_, F> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
