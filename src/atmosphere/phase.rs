@@ -28,7 +28,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    pub(super) fn validate(&self, component: &str, wavelengths: usize) -> Result<()> {
+    pub(crate) fn validate(&self, component: &str, wavelengths: usize) -> Result<()> {
         match self {
             Self::Rayleigh { depolarisation } => {
                 if depolarisation.len() != 1 && depolarisation.len() != wavelengths {

@@ -43,6 +43,6 @@ mod zenith_axis;
 
 pub use angular::{AngularFunctions, BLOCK, FunctionRows, Located, Once};
 pub use field::{Gathered, Incident, LightField, Observer, Segments};
-pub use path_tracer::{Estimate, Guiding, PathTracer};
+pub use path_tracer::{Estimate, Field, FieldTracer, Guiding, PathTracer};
 pub use stokes::transverse;
 pub use thesis::{Thesis, ThesisOptions};

@@ -18,53 +18,41 @@
 //! a map of where the light is (`guide`). Random choices enter by their densities alone, so the estimate is unbiased whatever the map says. Rays are
 //! straight (no refraction); the Sun is a uniform disc, partly hidden by the planet at the terminator.
 
+mod air;
 mod angles;
 mod disc;
+mod estimate;
+mod field;
+mod field_tracer;
 mod guide;
 mod medium;
+mod pattern;
 pub(super) mod sampling;
+mod scene;
 mod shells;
 mod single;
 mod stokes;
 mod walk;
 
+pub use estimate::Estimate;
+pub use field::Field;
+pub use field_tracer::FieldTracer;
+
 use crate::atmosphere::OpticalProfile;
-use crate::error::{Error, Result, check_range};
+use crate::error::{Error, Result};
 use crate::progress::Progress;
-use disc::Disc;
+use air::Air;
+use estimate::{check_samples, trace};
+use field::AirWithField;
 use glam::DVec3;
 use guide::Guide;
-use medium::Medium;
-use rayon::prelude::*;
-use sampling::Random;
+use scene::{Scene, Sight};
 #[cfg(test)]
 use std::f64::consts::PI;
 use std::sync::OnceLock;
-use stokes::Stokes;
-use walk::{Scene, Walker};
-
-/// Paths that share a stream of random numbers and a thread; the result does not depend on the number of threads.
-const PATHS_PER_CHUNK: usize = 256;
 
 /// Sun zenith angle above which paths are guided unless said otherwise [degrees].
 const GUIDED_SUN_ZENITH_DEG: f64 = 85.0;
-
-/// A Monte Carlo result.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
-    /// Mean over the paths.
-    pub mean: f64,
-    /// Standard error of the mean.
-    pub standard_error: f64,
-    /// The largest path's share of the variance, 0 to 1. Near 1 / paths all is well; above a few per cent the standard error
-    /// hangs on few paths and is not to be believed.
-    pub largest_share: f64,
-}
-
-impl Estimate {
-    /// What is known exactly.
-    const ZERO: Self = Self { mean: 0.0, standard_error: 0.0, largest_share: 0.0 };
-}
 
 /// When paths seek the light by a map of it made beforehand (about a second for each tracer).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -80,10 +68,9 @@ pub enum Guiding {
 
 /// A path tracer of one air at one wavelength.
 pub struct PathTracer<'a> {
-    medium: Medium<'a>,
-    sun_angular_radius_deg: f64,
+    air: Air<'a>,
+    sight: Sight,
     guiding: Guiding,
-    length_km: Option<f64>,
     guide: OnceLock<Guide>,
     progress: Progress<'a>,
 }
@@ -95,10 +82,9 @@ impl<'a> PathTracer<'a> {
     /// [`Error::Input`] if the profile is not valid or has no wavelength with that index.
     pub fn new(profile: &'a OpticalProfile, wavelength_index: usize) -> Result<Self> {
         Ok(Self {
-            medium: Medium::new(profile, wavelength_index)?,
-            sun_angular_radius_deg: profile.sun_angular_radius_deg,
+            air: Air::new(profile, wavelength_index)?,
+            sight: Sight { sun_angular_radius_deg: profile.sun_angular_radius_deg, length_km: None },
             guiding: Guiding::Automatic,
-            length_km: None,
             guide: OnceLock::new(),
             progress: Progress::silent(),
         })
@@ -106,7 +92,7 @@ impl<'a> PathTracer<'a> {
 
     /// Follows polarisation, or (the default) treats light as a scalar.
     pub fn with_polarisation(mut self, polarised: bool) -> Self {
-        self.medium.polarised = polarised;
+        self.air.polarised = polarised;
         self
     }
 
@@ -118,8 +104,20 @@ impl<'a> PathTracer<'a> {
 
     /// Only light that the air on the first `length_km` of the line of sight sends to the observer, whose last scattering is there; the ground is not seen, but lights the air.
     pub fn with_length_km(mut self, length_km: f64) -> Self {
-        self.length_km = Some(length_km);
+        self.sight.length_km = Some(length_km);
         self
+    }
+
+    /// Adds a field of density to the air, such as clouds; `field` says what it is. All that was asked for stays; call this last.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for bounds, a majorant, an albedo or a phase function that [`Field`] does not allow, and for [`Guiding::Always`]: there is no map of the light
+    /// in such air.
+    pub fn with_field<F: Field + ?Sized>(self, field: &'a F) -> Result<FieldTracer<'a, F>> {
+        if self.guiding == Guiding::Always {
+            return Err(Error::input("guiding", "always", "automatic or never with a field"));
+        }
+        Ok(FieldTracer::new(AirWithField::new(self.air, field)?, self.sight, self.progress))
     }
 
     /// Reports the stage "trace" to `progress` and stops when it says so.
@@ -180,8 +178,8 @@ impl<'a> PathTracer<'a> {
     /// # Errors
     /// Those of [`Self::single_scattering`].
     pub fn single_scattering_stokes(&self, observer_altitude_km: f64, sun_zenith_deg: f64, view: DVec3) -> Result<[f64; 3]> {
-        let scene = self.scene(observer_altitude_km, sun_zenith_deg, view)?;
-        Ok(scene.map_or([0.0; 3], |scene| single::single_scattering(&self.medium, &scene)))
+        let scene = Scene::new(&self.air, self.sight, observer_altitude_km, sun_zenith_deg, view)?;
+        Ok(scene.map_or([0.0; 3], |scene| single::single_scattering(&self.air, &scene)))
     }
 
     /// All light that [`Self::single_scattering`] leaves out: two or more scatterings in the air, and every reflection by the
@@ -212,90 +210,17 @@ impl<'a> PathTracer<'a> {
         samples: usize,
         seed: u64,
     ) -> Result<[Estimate; 3]> {
-        if samples < 2 {
-            return Err(Error::input("samples", samples, "at least 2"));
-        }
-        let Some(scene) = self.scene(observer_altitude_km, sun_zenith_deg, view)? else { return Ok([Estimate::ZERO; 3]) };
+        check_samples(samples)?;
+        let Some(scene) = Scene::new(&self.air, self.sight, observer_altitude_km, sun_zenith_deg, view)? else {
+            return Ok([Estimate::ZERO; 3]);
+        };
         let guided = match self.guiding {
             Guiding::Automatic => sun_zenith_deg > GUIDED_SUN_ZENITH_DEG,
             Guiding::Always => true,
             Guiding::Never => false,
         };
-        let guide = guided.then(|| self.guide.get_or_init(|| Guide::new(&self.medium)));
-        let chunks = samples.div_ceil(PATHS_PER_CHUNK);
-        let parts = self.progress.parts("trace", chunks);
-        let sums: Vec<Sums> = (0..chunks)
-            .into_par_iter()
-            .map(|chunk| {
-                let mut random = Random::new(seed, chunk as u64);
-                let mut walker = Walker::new(&self.medium, &scene, guide);
-                let mut sums = Sums::default();
-                for _ in 0..PATHS_PER_CHUNK.min(samples - chunk * PATHS_PER_CHUNK) {
-                    sums.add(walker.path(&mut random));
-                }
-                parts.finish_one()?;
-                Ok(sums)
-            })
-            .collect::<Result<_>>()?;
-        let all = sums.into_iter().fold(Sums::default(), Sums::plus);
-        Ok(std::array::from_fn(|i| all.estimate(i, samples as f64)))
-    }
-
-    /// Checks the input and moves an observer above the air to where the view enters it; `None` if it never does.
-    fn scene(&self, observer_altitude_km: f64, sun_zenith_deg: f64, view: DVec3) -> Result<Option<Scene>> {
-        check_range("observer_altitude_km", observer_altitude_km, 0.0, 1e6, "km")?;
-        check_range("sun_zenith_deg", sun_zenith_deg, 0.0, 180.0, "degrees")?;
-        if !view.is_normalized() {
-            return Err(Error::input("view", view, "a unit vector"));
-        }
-        let shells = &self.medium.shells;
-        let (sine, cosine) = sun_zenith_deg.to_radians().sin_cos();
-        let mut start = DVec3::Z * (shells.planet_radius + observer_altitude_km);
-        let mut length = self.length_km;
-        if observer_altitude_km > shells.top() {
-            match self.medium.chord(start, view).crossings(shells.top()) {
-                Some((way_in, _)) if way_in > 0.0 => {
-                    start += view * way_in;
-                    length = length.map(|length| (length - way_in).max(0.0));
-                }
-                _ => return Ok(None),
-            }
-        }
-        let sun = Disc::new(DVec3::new(sine, 0.0, cosine), self.sun_angular_radius_deg);
-        Ok(Some(Scene { start, view, sun, length }))
-    }
-}
-
-/// Moments of the values of paths.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    first: Stokes,
-    second: Stokes,
-    largest: Stokes,
-}
-
-impl Sums {
-    fn add(&mut self, value: Stokes) {
-        for i in 0..3 {
-            self.first[i] += value[i];
-            self.second[i] += value[i] * value[i];
-            self.largest[i] = self.largest[i].max(value[i].abs());
-        }
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self {
-            first: std::array::from_fn(|i| self.first[i] + other.first[i]),
-            second: std::array::from_fn(|i| self.second[i] + other.second[i]),
-            largest: std::array::from_fn(|i| self.largest[i].max(other.largest[i])),
-        }
-    }
-
-    fn estimate(&self, i: usize, n: f64) -> Estimate {
-        let mean = self.first[i] / n;
-        let variance = ((self.second[i] / n - mean * mean) * n / (n - 1.0)).max(0.0);
-        let largest_share = if variance > 0.0 { ((self.largest[i] - mean.abs()).powi(2) / (variance * n)).min(1.0) } else { 0.0 };
-        Estimate { mean, standard_error: (variance / n).sqrt(), largest_share }
+        let guide = guided.then(|| self.guide.get_or_init(|| Guide::new(&self.air)));
+        trace(&self.air, &scene, guide, (samples, seed), &self.progress)
     }
 }
 

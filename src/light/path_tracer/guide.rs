@@ -3,7 +3,7 @@
 //! By dusk light reaches the observer through several scatterings from sunlit air far away, where a blind path never gets. The
 //! light of a spherical air is symmetric about the Sun's axis, so a place needs two numbers, altitude and the Sun's zenith angle. On a coarse grid of the two
 //! `build` finds the mean intensity by successive orders, as though the air scattered isotropically, and the radiance by bins of direction. Paths draw directions
-//! (`lobes`) and distances (`flight`) in proportion to it and are split or ended so that each carries about the same light.
+//! (`lobes`) and distances (`flight`) in proportion to it and are split or ended so that each carries about the same light (`steering`).
 //!
 //! None of this enters the result but through probabilities, by which the weights are divided: a wrong map costs time, not
 //! truth (importance sampling: Kalos & Whitlock 2008, ch. 4; weight windows: Booth & Hendricks 1984).
@@ -12,14 +12,17 @@ mod bins;
 mod build;
 mod flight;
 mod lobes;
+mod steering;
 mod tables;
 
-pub(super) use flight::{Ending, Flight, Sunshine};
-pub(super) use lobes::Lobes;
+pub(super) use flight::Ending;
+pub(super) use steering::Steering;
 
 use super::super::chord::Chord;
-use super::medium::Medium;
+use super::air::Air;
 use crate::units::EARTH_RADIUS_KM;
+use flight::{Flight, Sunshine};
+use lobes::Lobes;
 use std::f64::consts::PI;
 use tables::{Tables, bilinear, split};
 
@@ -112,13 +115,13 @@ impl Guide {
         add(length);
     }
 
-    fn new_empty(medium: &Medium) -> Self {
-        let tables = Tables::new(medium);
+    fn new_empty(air: &Air) -> Self {
+        let tables = Tables::new(air);
         let ladder = (0..=LADDER).map(|i| tables.top * (i as f64 / LADDER as f64).powi(2)).collect();
         let step = STEP_KM * tables.radius / EARTH_RADIUS_KM;
         let direct = (0..SUNS).map(|i| {
             let cosine = sun_cosine(i);
-            medium.ground_albedo / PI * cosine.max(0.0) * tables.sunlight(0.0, 0.0, cosine)
+            air.ground_albedo / PI * cosine.max(0.0) * tables.sunlight(0.0, 0.0, cosine)
         });
         Self {
             ground_by_sun: direct.collect(),

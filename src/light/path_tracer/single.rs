@@ -1,9 +1,10 @@
 //! Light scattered once, by quadrature: along the ray three Gauss points in every piece between the bends of the profile, and over
 //! the part of the Sun's disc that each point sees.
 
-use super::medium::Medium;
+use super::air::Air;
+use super::medium::{Medium, chord};
+use super::scene::Scene;
 use super::stokes::{Stokes, basis};
-use super::walk::Scene;
 use crate::numerics::GaussLegendre;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -12,9 +13,9 @@ use std::f64::consts::PI;
 const STEP_KM: f64 = 2.5;
 
 /// The Stokes vector [sr-1] of light scattered exactly once by the air and never by the ground.
-pub(super) fn single_scattering(medium: &Medium, scene: &Scene) -> Stokes {
-    let (shells, into) = (&medium.shells, basis(scene.view));
-    let chord = medium.chord(scene.start, scene.view);
+pub(super) fn single_scattering(air: &Air, scene: &Scene) -> Stokes {
+    let (shells, into) = (&air.shells, basis(scene.view));
+    let chord = chord(shells.planet_radius, scene.start, scene.view);
     let (_, end) = scene.end(shells.end(&chord));
     let mut cuts: Vec<f64> = shells.altitudes().iter().filter_map(|&z| chord.crossings(z)).flat_map(|(a, b)| [a, b]).collect();
     cuts.extend([0.0, -chord.radius * chord.cosine, end]);
@@ -28,8 +29,8 @@ pub(super) fn single_scattering(medium: &Medium, scene: &Scene) -> Stokes {
         let radius = point.length();
         let mut sum = [0.0; 3];
         scene.sun.integrate(point / radius, radius, shells.planet_radius, (&rows, &columns), |sun, weight| {
-            let light = weight * medium.sunlight(point, sun);
-            let scattered = medium.scattered_natural_light(place, scene.view, &into, sun);
+            let light = weight * air.exact_sunlight(point, sun);
+            let scattered = air.scattered_natural_light(place, scene.view, &into, sun);
             (0..3).for_each(|i| sum[i] += light * scattered[i]);
         });
         if sum[0] > 0.0 { sum.map(|x| x * (-shells.optical_depth(&chord, t)).exp()) } else { sum }

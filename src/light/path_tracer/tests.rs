@@ -8,7 +8,13 @@ pub(super) fn clear_air(parameters: &AirParameters, wavelength_nm: f64) -> Optic
 }
 
 /// One component with constant coefficients up to `top_km`, on a planet so large that it is flat.
-fn slab(scattering_per_km: f64, absorption_per_km: f64, top_km: f64, phase: Phase, ground_albedo: f64) -> OpticalProfile {
+pub(super) fn slab(
+    scattering_per_km: f64,
+    absorption_per_km: f64,
+    top_km: f64,
+    phase: Phase,
+    ground_albedo: f64,
+) -> OpticalProfile {
     OpticalProfile {
         altitudes_km: vec![0.0, top_km],
         wavelengths_nm: vec![550.0],
@@ -25,18 +31,18 @@ fn slab(scattering_per_km: f64, absorption_per_km: f64, top_km: f64, phase: Phas
     }
 }
 
-fn isotropic() -> Phase {
+pub(super) fn isotropic() -> Phase {
     Phase::Rayleigh { depolarisation: vec![1.0] }
 }
 
-fn view(zenith_deg: f64, azimuth_deg: f64) -> DVec3 {
+pub(super) fn view(zenith_deg: f64, azimuth_deg: f64) -> DVec3 {
     let (sine, cosine) = zenith_deg.to_radians().sin_cos();
     let (sine_azimuth, cosine_azimuth) = azimuth_deg.to_radians().sin_cos();
     DVec3::new(sine * cosine_azimuth, sine * sine_azimuth, cosine)
 }
 
 /// Mean over the hemisphere of `value(direction)` times pi: the flux through a horizontal plane.
-fn flux(upward: bool, value: impl Fn(DVec3) -> f64) -> f64 {
+pub(super) fn flux(upward: bool, value: impl Fn(DVec3) -> f64) -> f64 {
     let mut sum = 0.0;
     for (cosine, weight) in legendre(6) {
         let zenith_deg = cosine.acos().to_degrees();
@@ -146,6 +152,13 @@ fn a_path_that_begins_on_black_ground_ends_there() {
     let profile = slab(0.02, 0.0, 10.0, isotropic(), 0.0);
     let found = PathTracer::new(&profile, 0).unwrap().multiple_scattering(0.0, 30.0, -DVec3::Z, 300, 1).unwrap();
     assert_eq!(found, Estimate::ZERO);
+}
+
+#[test]
+fn a_guided_line_of_sight_that_ends_before_the_air_begins_is_dark() {
+    let profile = slab(0.02, 0.0, 10.0, isotropic(), 0.3);
+    let tracer = PathTracer::new(&profile, 0).unwrap().with_guiding(Guiding::Always).with_length_km(5.0);
+    assert_eq!(tracer.radiance(50.0, 30.0, -DVec3::Z, 100, 1).unwrap(), Estimate::ZERO);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::flight::{Flight, Sunshine};
 use super::tables::horizon_cosine;
 use super::{Guide, LEVELS, SUNS, sun_cosine};
 use crate::light::chord::Chord;
-use crate::light::path_tracer::medium::Medium;
+use crate::light::path_tracer::air::Air;
 use crate::light::path_tracer::shells::End;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -14,26 +14,26 @@ use std::f64::consts::PI;
 const ORDERS: usize = 7;
 
 /// A phase function counts as at most this: paths seek its peak by themselves.
-const LARGEST_PHASE: f64 = 6.0;
+pub(super) const LARGEST_PHASE: f64 = 6.0;
 
 /// What stands for no light.
 pub(super) const NONE: f64 = 1e-40;
 
 impl Guide {
-    /// Maps the light of `medium`.
-    pub fn new(medium: &Medium) -> Self {
-        let mut guide = Self::new_empty(medium);
+    /// Maps the light of `air`.
+    pub fn new(air: &Air) -> Self {
+        let mut guide = Self::new_empty(air);
         let mut radiance = Vec::new();
         for order in 1..=ORDERS {
-            radiance = guide.radiance_in_bins(medium, if order < ORDERS { 1 } else { 2 });
-            guide.take_means(medium, &radiance);
+            radiance = guide.radiance_in_bins(air, if order < ORDERS { 1 } else { 2 });
+            guide.take_means(air, &radiance);
         }
         guide.take_bins(&radiance);
         guide
     }
 
     /// Mean radiance in all bins, (level, zenith, Sun, azimuth), from `parts` zenith angles and as many azimuths in each.
-    fn radiance_in_bins(&self, medium: &Medium, parts: usize) -> Vec<f64> {
+    fn radiance_in_bins(&self, air: &Air, parts: usize) -> Vec<f64> {
         let rows: Vec<Vec<f64>> = (0..LEVELS * ZENITHS)
             .into_par_iter()
             .map(|row| {
@@ -43,7 +43,7 @@ impl Guide {
                 if high > low {
                     for part in 0..parts {
                         let cosine = low + (high - low) * (part as f64 + 0.5) / parts as f64;
-                        self.add_radiance(medium, altitude, cosine, parts, &mut out);
+                        self.add_radiance(air, altitude, cosine, parts, &mut out);
                     }
                 }
                 out
@@ -53,12 +53,12 @@ impl Guide {
     }
 
     /// Adds the radiance at zenith cosine `cosine`, (Sun, azimuth), over the number of parts. All share the geometry of the ray.
-    fn add_radiance(&self, medium: &Medium, altitude: f64, cosine: f64, parts: usize, out: &mut [f64]) {
+    fn add_radiance(&self, air: &Air, altitude: f64, cosine: f64, parts: usize, out: &mut [f64]) {
         let chord = Chord { altitude, radius: self.tables.radius + altitude, cosine };
-        let (end, length) = medium.shells.end(&chord);
+        let (end, length) = air.shells.end(&chord);
         let mut flight = Flight::default();
         flight.trace(self, &chord, length, end == End::Ground);
-        let mut phases = vec![0.0; medium.scatterers.len()];
+        let mut phases = vec![0.0; air.scatterers.len()];
         for (k, value) in out.iter_mut().enumerate() {
             let zenith_cosine = sun_cosine(k / AZIMUTHS);
             let sines = ((1.0 - zenith_cosine * zenith_cosine) * (1.0 - cosine * cosine)).max(0.0).sqrt();
@@ -66,8 +66,8 @@ impl Guide {
             for part in 0..parts {
                 let azimuth = near + (far - near) * (part as f64 + 0.5) / parts as f64;
                 let sun_cosine = cosine * zenith_cosine + sines * azimuth.cos();
-                for (phase, scatterer) in phases.iter_mut().zip(&medium.scatterers) {
-                    *phase = scatterer.phase(medium.wavelength, sun_cosine).min(LARGEST_PHASE);
+                for (phase, scatterer) in phases.iter_mut().zip(&air.scatterers) {
+                    *phase = scatterer.pattern.value(sun_cosine).min(LARGEST_PHASE);
                 }
                 let (air, ground) = flight.light(self, &Sunshine { zenith_cosine, cosine: sun_cosine, phases: Some(&phases) });
                 *value += (air + ground) / (parts * parts) as f64;
@@ -80,7 +80,7 @@ impl Guide {
     }
 
     /// Mean intensities and the irradiance of the ground from the radiance in the bins.
-    fn take_means(&mut self, medium: &Medium, radiance: &[f64]) {
+    fn take_means(&mut self, air: &Air, radiance: &[f64]) {
         for level in 0..LEVELS {
             let horizon = horizon_cosine(self.tables.radius, self.altitude(level));
             for sun in 0..SUNS {
@@ -94,7 +94,7 @@ impl Guide {
                 }
                 self.ln_mean[level * SUNS + sun] = mean.max(NONE).ln();
                 if level == 0 {
-                    self.ground_by_sky[sun] = medium.ground_albedo / PI * irradiance;
+                    self.ground_by_sky[sun] = air.ground_albedo / PI * irradiance;
                 }
             }
         }

@@ -140,7 +140,7 @@ impl Flight {
         if target >= air && self.ground_probability > 0.0 {
             return Some(Ending::Ground(self.ground_probability));
         }
-        if air <= 0.0 {
+        if self.cuts.len() < 2 || air <= 0.0 {
             return None;
         }
         let i = self.cuts.partition_point(|cut| cut.cumulative <= target).clamp(1, self.cuts.len() - 1);
@@ -166,7 +166,7 @@ impl Flight {
 mod tests {
     use super::*;
     use crate::atmosphere::AirParameters;
-    use crate::light::path_tracer::medium::Medium;
+    use crate::light::path_tracer::air::Air;
     use crate::light::path_tracer::shells::End;
     use crate::light::path_tracer::tests::clear_air;
 
@@ -174,14 +174,14 @@ mod tests {
     #[test]
     fn distances_have_the_density_they_are_said_to_have() {
         let profile = clear_air(&AirParameters::default(), 550.0);
-        let medium = Medium::new(&profile, 0).unwrap();
-        let guide = Guide::new(&medium);
+        let air = Air::new(&profile, 0).unwrap();
+        let guide = Guide::new(&air);
         let mut flight = Flight::default();
         let mut random = Random::new(3, 0);
         for (altitude, cosine, sun) in [(0.0, 0.2, -0.1), (40.0, -0.05, -0.15), (10.0, -0.5, 0.1), (100.0, -0.16, -0.2)] {
-            let chord = Chord { altitude, radius: medium.shells.planet_radius + altitude, cosine };
-            let (end, length) = medium.shells.end(&chord);
-            let phases = vec![1.0; medium.scatterers.len()];
+            let chord = Chord { altitude, radius: air.shells.planet_radius + altitude, cosine };
+            let (end, length) = air.shells.end(&chord);
+            let phases = vec![1.0; air.scatterers.len()];
             flight.trace(&guide, &chord, length, end == End::Ground);
             let sunshine = Sunshine { zenith_cosine: sun, cosine: 0.9, phases: Some(&phases) };
             assert!(flight.aim(&guide, &sunshine) > 0.0);

@@ -105,14 +105,14 @@ impl Lobes {
 mod tests {
     use super::*;
     use crate::atmosphere::AirParameters;
-    use crate::light::path_tracer::medium::Medium;
+    use crate::light::path_tracer::air::Air;
     use crate::light::path_tracer::tests::clear_air;
 
     /// The mean of x_i^2 / density over drawn directions is 1 / 3 for each axis, whatever the density.
     #[test]
     fn directions_have_the_density_they_are_said_to_have() {
         let profile = clear_air(&AirParameters::default(), 550.0);
-        let guide = Guide::new(&Medium::new(&profile, 0).unwrap());
+        let guide = Guide::new(&Air::new(&profile, 0).unwrap());
         let mut lobes = Lobes::default();
         let mut random = Random::new(4, 0);
         for (altitude, sun_deg) in [(0.0, 60.0), (30.0, 97.0), (80.0, 101.0_f64)] {

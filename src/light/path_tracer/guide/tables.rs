@@ -4,6 +4,7 @@
 //! over that of the local horizon, e = c - h, as sqrt(e), which is fine where the Sun sets.
 
 use crate::light::chord::Chord;
+use crate::light::path_tracer::air::Air;
 use crate::light::path_tracer::medium::Medium;
 use crate::light::path_tracer::shells::End;
 
@@ -52,13 +53,13 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    pub fn new(medium: &Medium) -> Self {
-        let (radius, top) = (medium.shells.planet_radius, medium.shells.top());
+    pub fn new(air: &Air) -> Self {
+        let (radius, top) = (air.shells.planet_radius, air.shells.top());
         let mut columns = Vec::new();
         for i in 0..=COLUMN_ROWS {
-            let place = medium.shells.locate(top * (i as f64 / COLUMN_ROWS as f64).powi(2));
-            columns.extend([medium.extinction(place), medium.scattering(place)]);
-            columns.extend(medium.scatterers.iter().map(|s| s.scattering(place)));
+            let place = air.shells.locate(top * (i as f64 / COLUMN_ROWS as f64).powi(2));
+            columns.extend([air.extinction(place), air.scattering(place)]);
+            columns.extend(air.scatterers.iter().map(|s| s.scattering(place)));
         }
         let mut ln_sunlight = Vec::new();
         for level in 0..SUNLIGHT_LEVELS {
@@ -68,12 +69,12 @@ impl Tables {
                 // A hair above the horizon, so that rounding does not end the ray on the ground.
                 let above = HIGHEST * (i as f64 / (SUNLIGHT_HEIGHTS - 1) as f64).powi(2) + 1e-9;
                 let chord = Chord { altitude, radius: radius + altitude, cosine: (horizon + above).min(1.0) };
-                let (end, length) = medium.shells.end(&chord);
-                let depth = if end == End::Ground { -DARK } else { medium.shells.optical_depth(&chord, length) };
+                let (end, length) = air.shells.end(&chord);
+                let depth = if end == End::Ground { -DARK } else { air.shells.optical_depth(&chord, length) };
                 ln_sunlight.push((-depth).max(DARK));
             }
         }
-        Self { radius, top, columns, stride: 2 + medium.scatterers.len(), ln_sunlight }
+        Self { radius, top, columns, stride: 2 + air.scatterers.len(), ln_sunlight }
     }
 
     /// The coordinate u, 0 to 1, of an altitude [km].
@@ -129,17 +130,17 @@ mod tests {
     #[test]
     fn the_tables_are_near_the_air() {
         let profile = clear_air(&AirParameters::default(), 550.0);
-        let medium = Medium::new(&profile, 0).unwrap();
-        let tables = Tables::new(&medium);
+        let air = Air::new(&profile, 0).unwrap();
+        let tables = Tables::new(&air);
         for altitude in [0.0, 0.7, 4.0, 15.0, 31.0, 70.0] {
             let level = tables.level(altitude);
-            let exact = medium.extinction(medium.shells.locate(altitude));
+            let exact = air.extinction(air.shells.locate(altitude));
             assert!((tables.coefficients(level).extinction() / exact - 1.0).abs() < 0.03);
             for sun_deg in [10.0, 60.0, 85.0, 89.5, 92.0, 95.0_f64] {
                 let (sine, cosine) = sun_deg.to_radians().sin_cos();
-                let point = DVec3::Z * (medium.shells.planet_radius + altitude);
+                let point = DVec3::Z * (air.shells.planet_radius + altitude);
                 let (found, exact) =
-                    (tables.sunlight(level, altitude, cosine), medium.sunlight(point, DVec3::new(sine, 0.0, cosine)));
+                    (tables.sunlight(level, altitude, cosine), air.exact_sunlight(point, DVec3::new(sine, 0.0, cosine)));
                 assert!((found - exact).abs() < 0.03 + 0.1 * exact, "{altitude} km, {sun_deg} deg: {found} {exact}");
             }
         }
