@@ -14,8 +14,12 @@
 //! With polarisation molecules scatter by the exact Rayleigh matrix with depolarisation; aerosol keeps its scalar phase function
 //! and sends out unpolarised light, and so does the ground. That is the solver's approximation, made here too so that the two can be compared.
 //!
-//! Light scattered once is a plain integral and is computed by quadrature (`single`); all else is drawn (`walk`), in twilight with
-//! a map of where the light is (`guide`). Random choices enter by their densities alone, so the estimate is unbiased whatever the map says. Rays are
+//! The walk (`walk`) knows its medium by a trait alone (`medium::Medium`): where a ray ends, extinction and scattering at a place, transmittances, random distances and
+//! angles. It is compiled for each medium. Today there are two: air of spherical shells (`air`), in which all but directions is exact, and such air with a
+//! [`Field`] of density in it (`field`), such as clouds, by null collisions. To judge a new medium, implement the trait.
+//!
+//! In air of shells light scattered once is a plain integral and is computed by quadrature (`single`); all else is drawn, in twilight with
+//! a map of where the light is (`guide`). With a field all is drawn, without a map. Random choices enter by their densities alone, so the estimate is unbiased whatever the map says. Rays are
 //! straight (no refraction); the Sun is a uniform disc, partly hidden by the planet at the terminator.
 
 mod air;

@@ -80,22 +80,13 @@ fn layer(planet_radius: f64, depth: f64, albedo: f64) -> Given<impl Fn(DVec3) ->
     Given { extinction, majorant: 1.5 * density, altitudes: (lower - 0.5, upper + 1.0), albedo, phase: forward() }
 }
 
-/// An estimate with a standard error of about `NOISE` of the radiance, from as many paths as a pilot says.
-fn estimate(trace: impl Fn(usize, u64) -> [Estimate; 3], seed: u64) -> [Estimate; 3] {
-    const PILOT_PATHS: usize = 8192;
-    const NOISE: f64 = 0.0125;
-    let pilot = trace(PILOT_PATHS, 1000 + seed)[0];
-    let needed = PILOT_PATHS as f64 * (pilot.standard_error / pilot.mean / NOISE).powi(2);
-    trace((needed as usize).clamp(PILOT_PATHS, 200_000), seed)
-}
-
 /// The layer in the profile against the same layer as a field. Paths of shells fly by distances that never leave the air, whose weights a thick layer makes wild: there
 /// the shells have an empty field, so that they fly by their exact collisions.
 #[test]
 fn a_layer_is_the_same_as_a_field_and_as_shells() {
     let profile = clear_air(&AirParameters::default(), 550.0);
     let empty = Given { extinction: |_| 0.0, majorant: 1e-9, altitudes: (0.0, 20.0), albedo: 1.0, phase: isotropic() };
-    let (mut squares, mut numbers) = (0.0, 0.0);
+    let (mut squares, mut numbers, mut worst, mut noisiest) = (0.0, 0.0, 0.0_f64, 0.0_f64);
     // Optical depth, albedo; altitude [km], zenith angle, azimuth, length of the line of sight [km]: from below, within and above.
     for (seed, (depth, albedo, altitude, zenith, azimuth, length)) in [
         (1.0, 1.0, 0.0, 20.0, 40.0, None),
@@ -120,12 +111,13 @@ fn a_layer_is_the_same_as_a_field_and_as_shells() {
         let view = view(zenith, azimuth);
         let (plain, flown) = (tracer(&shells), tracer(&shells).with_field(&empty).unwrap());
         let fielded = tracer(&profile).with_field(&field).unwrap();
+        let paths = if depth > 1.0 { 100_000 } else { 50_000 };
         let expected = if depth > 1.0 {
-            estimate(|paths, seed| flown.stokes(altitude, 50.0, view, paths, seed).unwrap(), seed)
+            flown.stokes(altitude, 50.0, view, paths, seed).unwrap()
         } else {
-            estimate(|paths, seed| plain.stokes(altitude, 50.0, view, paths, seed).unwrap(), seed)
+            plain.stokes(altitude, 50.0, view, paths, seed).unwrap()
         };
-        let found = estimate(|paths, seed| fielded.stokes(altitude, 50.0, view, paths, seed).unwrap(), seed + 1);
+        let found = fielded.stokes(altitude, 50.0, view, paths, seed + 1).unwrap();
         for i in 0..if polarised { 3 } else { 1 } {
             let error = found[i].standard_error.hypot(expected[i].standard_error);
             let deviation = (found[i].mean - expected[i].mean) / error;
@@ -137,14 +129,15 @@ fn a_layer_is_the_same_as_a_field_and_as_shells() {
                 100.0 * expected[i].standard_error / expected[0].mean,
                 100.0 * found[i].standard_error / found[0].mean,
             );
-            assert!(error < 0.02 * expected[0].mean, "too noisy to judge: {found:?} {expected:?}");
-            assert!(deviation.abs() < 3.0, "{found:?} {expected:?}");
+            noisiest = noisiest.max(error / expected[0].mean);
+            worst = worst.max(deviation.abs());
             squares += deviation * deviation;
             numbers += 1.0;
         }
     }
-    println!("rms {:.2} standard errors", f64::sqrt(squares / numbers));
-    assert!(squares / numbers < 1.8);
+    println!("rms {:.2}, worst {worst:.2} standard errors of at most {:.2} %", f64::sqrt(squares / numbers), 100.0 * noisiest);
+    assert!(noisiest < 0.025, "too noisy to judge: {noisiest}");
+    assert!(worst < 3.0 && squares / numbers < 1.8, "{worst} {squares} {numbers}");
 }
 
 /// Mean and standard error of `value` over many random numbers.
