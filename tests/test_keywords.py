@@ -138,3 +138,15 @@ def test_a_file_takes_no_layers_of_a_probe(tmp_path: pathlib.Path) -> None:
 def test_values_of_other_types_are_named(call: Any, keywords: dict[str, Any], message: str) -> None:
     with pytest.raises(sp.InputError, match=message):
         call(**keywords)
+
+
+def test_none_is_as_left_out() -> None:
+    def optional(table: str) -> dict[str, None]:
+        return {name: None for name, row in rows(table).items() if "default" not in row}
+
+    assert repr(sp.Atmosphere(**optional("atmosphere"))) == repr(sp.Atmosphere())
+    for call, table in [(sp.Night, "night"), (sp.PolarisingFilter, "polarising_filter")]:
+        assert repr(call(**optional(table))) == repr(call())
+    sky = sp.Sky.with_sun(altitude_deg=30.0, azimuth_deg=0.0, atmosphere=sp.Atmosphere(quality="draft"))
+    given, left_out = sky.render(width=64, polarising_filter=None, tolerance=None, layers=None), sky.render(width=64)
+    assert (given.pixels == left_out.pixels).all()

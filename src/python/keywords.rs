@@ -32,7 +32,11 @@ impl Keywords {
                 _ => None,
             });
             let Some(row) = row else { return Err(unexpected(call, &arguments, &key, value.py())) };
-            tables.entry(row.table).or_default().insert(key, read(row, &value)?);
+            // None is what is left out.
+            let value = read(row, &value)?;
+            if !value.is_null() {
+                tables.entry(row.table).or_default().insert(key, value);
+            }
         }
         Ok(Self(tables))
     }
